@@ -4,8 +4,9 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use crate::{
-    Ball, Evaluator, Map, Opened, Quantities, Request, Session, Studio, StudioRequest, albedo_rows, backends, compare,
-    converted, curve, difference_map, evaluate, facts, figure, findings, map, probe, spectra, surface, table, targets,
+    Ball, Evaluator, Map, Opened, Quantities, Request, Session, Shades, Studio, StudioRequest, albedo_rows, backends,
+    compare, converted, curve, difference_map, evaluate, facts, figure, findings, half_difference, half_probe, map,
+    probe, spectra, surface, table, targets,
 };
 
 #[wasm_bindgen]
@@ -16,13 +17,16 @@ extern "C" {
     fn now() -> f64;
 }
 
-/// The files of a page, the materials opened from them, and a picture.
+/// The number of pictures that are rendered side by side.
+const STAGES: usize = 2;
+
+/// The files of a page, the materials opened from them, and their pictures.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct Explorer {
     session: Session,
     ball: Option<Ball>,
-    studio: Option<Studio>,
+    studios: [Option<Studio>; STAGES],
 }
 
 type Answer<T> = Result<T, JsError>;
@@ -42,6 +46,10 @@ fn triple(values: &[f32]) -> Answer<[f32; 3]> {
 impl Explorer {
     fn opened(&self, material: u32) -> Answer<&Opened> {
         self.session.opened(material).map_err(said)
+    }
+
+    fn studio(&mut self, stage: usize) -> Answer<&mut Option<Studio>> {
+        self.studios.get_mut(stage).ok_or_else(|| said(format!("found the stage {stage}; expected one below {STAGES}")))
     }
 }
 
@@ -135,7 +143,9 @@ impl Explorer {
         figure(&opened, &requests, kind, sigmas).map_err(said)
     }
 
-    /// A map of the hemisphere that shows `values`, `colours` or `dolp`.
+    /// A map of the hemisphere that shows `values`, `colours` or `dolp`. `range` has the two ends of the false colours of
+    /// values, or is empty.
+    #[allow(clippy::too_many_arguments, reason = "JavaScript passes numbers and text, not structs")]
     pub fn map(
         &self,
         material: u32,
@@ -144,15 +154,29 @@ impl Explorer {
         size: usize,
         what: &str,
         exposure: f32,
+        range: &[f64],
     ) -> Answer<Picture> {
         let (request, what) = (Request::parse(request).map_err(said)?, Quantities::parse(what).map_err(said)?);
-        map(self.opened(material)?, &request, sigma, size, what, exposure).map(Picture).map_err(said)
+        let shades = Shades { exposure, range: range.try_into().ok() };
+        map(self.opened(material)?, &request, sigma, size, what, shades).map(Picture).map_err(said)
     }
 
     /// The direction and the values at a point of a map, as JSON; `null` outside the disk.
     pub fn probe(&self, material: u32, request: &str, sigma: f64, x: f64, y: f64) -> Answer<String> {
         let request = Request::parse(request).map_err(said)?;
         json(&probe(self.opened(material)?, &request, sigma, [x, y]).map_err(said)?)
+    }
+
+    /// A map of the half and difference angles of reflection.
+    pub fn half(&self, material: u32, request: &str, size: usize) -> Answer<Picture> {
+        let request = Request::parse(request).map_err(said)?;
+        half_difference(self.opened(material)?, &request, size).map(Picture).map_err(said)
+    }
+
+    /// The angles and the value at a point of that map, as JSON; `null` outside.
+    pub fn half_probe(&self, material: u32, request: &str, x: f64, y: f64) -> Answer<String> {
+        let request = Request::parse(request).map_err(said)?;
+        json(&half_probe(self.opened(material)?, &request, [x, y]).map_err(said)?)
     }
 
     /// The lobe in space: x, y, z and the value of each vertex of a grid.
@@ -200,34 +224,35 @@ impl Explorer {
         ball.picture(self.session.opened(material).map_err(said)?, &request, triple(toward)?, exposure).map_err(said)
     }
 
-    /// Puts a material on the stage; the request is JSON (`form`, `sky`, `toward`, `size`, `samples`).
-    pub fn stage(&mut self, material: u32, request: &str) -> Answer<()> {
+    /// Puts a material on the stage of this number; the request is JSON (`form`, `sky`, `toward`, `size`, `samples`).
+    pub fn stage(&mut self, stage: usize, material: u32, request: &str) -> Answer<()> {
         let request = StudioRequest::parse(request).map_err(said)?;
-        self.studio = None;
-        self.studio = Some(Studio::new(self.opened(material)?, &request).map_err(said)?);
+        *self.studio(stage)? = None;
+        let studio = Studio::new(self.opened(material)?, &request).map_err(said)?;
+        *self.studio(stage)? = Some(studio);
         Ok(())
     }
 
-    /// Restarts the picture with another lamp, sky or size. Returns `false` if that takes another stage.
-    pub fn relight(&mut self, request: &str) -> Answer<bool> {
+    /// Restarts a picture with another lamp, sky or size. Returns `false` if that takes another stage.
+    pub fn relight(&mut self, stage: usize, request: &str) -> Answer<bool> {
         let request = StudioRequest::parse(request).map_err(said)?;
-        self.studio.as_mut().map_or(Ok(false), |studio| studio.change(&request)).map_err(said)
+        self.studio(stage)?.as_mut().map_or(Ok(false), |studio| studio.change(&request)).map_err(said)
     }
 
     /// Renders for about this many milliseconds. Returns the number of samples that every pixel has.
-    pub fn render(&mut self, milliseconds: f64) -> Answer<u32> {
+    pub fn render(&mut self, stage: usize, milliseconds: f64) -> Answer<u32> {
         let end = now() + milliseconds;
-        self.studio.as_mut().map_or(Ok(0), |studio| studio.step(|| now() < end)).map_err(said)
+        self.studio(stage)?.as_mut().map_or(Ok(0), |studio| studio.step(|| now() < end)).map_err(said)
     }
 
-    /// Returns `true` if the picture has all of its samples, or if there is no picture.
-    pub fn rendered(&self) -> bool {
-        self.studio.as_ref().is_none_or(Studio::is_done)
+    /// Returns `true` if a picture has all of its samples, or if there is no picture.
+    pub fn rendered(&mut self, stage: usize) -> Answer<bool> {
+        Ok(self.studio(stage)?.as_ref().is_none_or(Studio::is_done))
     }
 
-    /// The picture so far, with four bytes per pixel.
-    pub fn picture(&self, exposure: f32) -> Vec<u8> {
-        self.studio.as_ref().map(|studio| studio.picture(exposure)).unwrap_or_default()
+    /// A picture so far, with four bytes per pixel.
+    pub fn picture(&mut self, stage: usize, exposure: f32) -> Answer<Vec<u8>> {
+        Ok(self.studio(stage)?.as_ref().map(|studio| studio.picture(exposure)).unwrap_or_default())
     }
 }
 

@@ -113,14 +113,25 @@ pub fn table(opened: &Opened, request: &Request, sigma: f64) -> Result<String, S
     Ok(out)
 }
 
+/// The figures of `lobe plot`.
+const FIGURES: [Figure; 8] = [
+    Figure::Curves,
+    Figure::Polar,
+    Figure::Channels,
+    Figure::Spectra,
+    Figure::Slices,
+    Figure::Sphere,
+    Figure::Mueller,
+    Figure::Polarisation,
+];
+
 /// A figure of one or more materials as SVG, as drawn by `lobe plot`: `curves`, `polar`, `channels`, `spectra`,
-/// `slices` or `sphere`.
+/// `slices`, `sphere`, `mueller` or `polarisation`.
 ///
 /// # Errors
 /// If there is no such figure, a request does not fit its material, or the figure cannot show the materials.
 pub fn figure(opened: &[&Opened], requests: &[Request], kind: &str, sigmas: &[f64]) -> Result<String, String> {
-    let kinds = [Figure::Curves, Figure::Polar, Figure::Channels, Figure::Spectra, Figure::Slices, Figure::Sphere];
-    let names: Vec<(String, Figure)> = kinds.into_iter().map(|kind| (kind.to_string(), kind)).collect();
+    let names: Vec<(String, Figure)> = FIGURES.into_iter().map(|kind| (kind.to_string(), kind)).collect();
     let names: Vec<(&str, Figure)> = names.iter().map(|(name, kind)| (name.as_str(), *kind)).collect();
     let kind = word(kind, &names)?.unwrap_or(Figure::Curves);
     let view = |(opened, request): (&&Opened, &Request)| {

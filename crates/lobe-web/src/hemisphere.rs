@@ -93,6 +93,15 @@ pub fn probe(opened: &Opened, request: &Request, sigma: f64, [x, y]: [f64; 2]) -
     Ok(Some(Probe { wi, wo, theta, phi, value, channels: texel, is_measured }))
 }
 
+/// How values become the colours of a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shades {
+    /// The exposure of colours, in stops.
+    pub exposure: f32,
+    /// The values at the two ends of the false colours, as in the map of another material; `None` lets the values choose.
+    pub range: Option<[f64; 2]>,
+}
+
 /// The map for light at `sigma`. Pixels outside the measurement are half as opaque.
 ///
 /// # Errors
@@ -103,7 +112,7 @@ pub fn map(
     sigma: f64,
     size: usize,
     what: Quantities,
-    exposure: f32,
+    shades: Shades,
 ) -> Result<Map, String> {
     let showing = request.of(opened)?;
     let Showing { view, scatter, scaling } = &showing;
@@ -117,7 +126,7 @@ pub fn map(
         Quantities::Colours => {
             let places = places(&showing, size);
             let wi = incident(view.side, sigma, view.psi).map(|c| c as f32);
-            let (tone, mut rgba) = (ToneMap { exposure }, vec![0; 4 * size * size]);
+            let (tone, mut rgba) = (ToneMap { exposure: shades.exposure }, vec![0; 4 * size * size]);
             each(opened, wi, &places, opened.subject.material().channel_count(), |at, texel| {
                 let colour = view.colour.apply(texel).map(|f| tone.byte(std::f32::consts::PI * f));
                 rgba[4 * at..][..3].copy_from_slice(&colour);
@@ -153,7 +162,12 @@ pub fn map(
             return Ok(Map { size, values, rgba, range: [0.0, 1.0], measured, marks });
         }
     }
-    let scale = Scale::around(values.iter().map(|f| f64::from(*f)), *scaling);
+    let scale = match shades.range {
+        Some([low, high]) if low < high && high.is_finite() && (low > 0.0 || *scaling == Scaling::Linear) => {
+            Scale { scaling: *scaling, low, high }
+        }
+        _ => Scale::around(values.iter().map(|f| f64::from(*f)), *scaling),
+    };
     let rgba = false_colours(&values, &scale, opacity);
     Ok(Map { size, values, rgba, range: [scale.low, scale.high], measured, marks })
 }
@@ -222,7 +236,7 @@ mod tests {
         let opened = session.opened(number).unwrap();
         let request = Request { psi: Some(0.4), ..Request::default() };
         let (sigma, size) = (0.7, 16);
-        let found = map(opened, &request, sigma, size, Quantities::Values, 0.0).unwrap();
+        let found = map(opened, &request, sigma, size, Quantities::Values, Shades::default()).unwrap();
         assert!(found.marks[0][0] < -0.3 && found.marks[1][0] > 0.3 && found.range[0] < found.range[1]);
         let mut inside = 0;
         for at in 0..size * size {
@@ -237,9 +251,14 @@ mod tests {
             }
         }
         assert!(inside > 180, "{inside}");
-        let colours = map(opened, &request, sigma, size, Quantities::Colours, 0.0).unwrap();
+        let [low, high] = found.range;
+        let shades = Shades { range: Some([low, 10.0 * high]), ..Shades::default() };
+        let paler = map(opened, &request, sigma, size, Quantities::Values, shades).unwrap();
+        assert!(paler.values[8 * size + 8] == found.values[8 * size + 8] && paler.rgba != found.rgba);
+        assert_eq!(paler.range, [low, 10.0 * high]);
+        let colours = map(opened, &request, sigma, size, Quantities::Colours, Shades::default()).unwrap();
         assert_eq!(colours.values.len(), found.values.len());
-        let error = map(opened, &request, sigma, size, Quantities::Polarisation, 0.0).unwrap_err();
+        let error = map(opened, &request, sigma, size, Quantities::Polarisation, Shades::default()).unwrap_err();
         assert!(error.contains("Mueller"), "{error}");
         assert!(Quantities::parse("else").is_err());
     }

@@ -21,7 +21,13 @@ pub struct Request {
     pub channel: String,
     /// `linear` or `log`.
     pub scale: String,
+    /// The width of figures in pixels; 0 is that of the program. Those of less than 560 are laid out for narrow columns.
+    pub width: u32,
 }
+
+/// The widths of figures, in pixels.
+const NARROWEST: u32 = 280;
+const WIDEST: u32 = 4000;
 
 /// A request resolved for a material.
 #[derive(Clone, Debug)]
@@ -60,6 +66,9 @@ impl Request {
             view.psi = psi;
         }
         view.scaling = word(&self.scale, &[("linear", Scaling::Linear), ("log", Scaling::Log)])?;
+        if self.width > 0 {
+            view.width = self.width.clamp(NARROWEST, WIDEST);
+        }
         let scatters = subject.scatters(view.side);
         let words = [("reflection", Scatter::Reflection), ("transmission", Scatter::Transmission)];
         let scatter = match word(&self.scatter, &words)? {

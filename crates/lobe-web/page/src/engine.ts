@@ -81,10 +81,13 @@ export class Engine {
     table = (material: number, request: string, sigma: number) => this.call<string>("table", [material, request, sigma]);
     figure = (materials: Uint32Array, requests: string, kind: string, sigmas: Float64Array) =>
         this.call<string>("figure", [materials, requests, kind, sigmas]);
-    map = (material: number, request: string, sigma: number, size: number, what: string, exposure: number) =>
-        this.call<MapPicture>("map", [material, request, sigma, size, what, exposure]);
+    /** An empty `range` lets the values choose the ends of the false colours. */
+    map = (material: number, request: string, sigma: number, size: number, what: string, exposure: number, range: Float64Array) =>
+        this.call<MapPicture>("map", [material, request, sigma, size, what, exposure, range]);
     probe = (material: number, request: string, sigma: number, x: number, y: number) =>
         this.call<string>("probe", [material, request, sigma, x, y]);
+    half = (material: number, request: string, size: number) => this.call<MapPicture>("half", [material, request, size]);
+    halfProbe = (material: number, request: string, x: number, y: number) => this.call<string>("half_probe", [material, request, x, y]);
     surface = (material: number, request: string, sigma: number, rows: number, columns: number) =>
         this.call<Float32Array>("surface", [material, request, sigma, rows, columns]);
     compare = (a: number, b: number, request: string) => this.call<string>("compare", [a, b, request]);
@@ -94,22 +97,31 @@ export class Engine {
     convert = (material: number, word: string, channel: string) => this.call<WrittenFile>("convert", [material, word, channel]);
     ball = (material: number, request: string, size: number, toward: Float32Array, exposure: number) =>
         this.call<Uint8Array>("ball", [material, request, size, toward, exposure]);
-    stage = (material: number, request: string) => this.call<void>("stage", [material, request]);
-    relight = (request: string) => this.call<boolean>("relight", [request]);
-    render = (milliseconds: number) => this.call<number>("render", [milliseconds]);
-    rendered = () => this.call<boolean>("rendered", []);
-    picture = (exposure: number) => this.call<Uint8Array>("picture", [exposure]);
+    stage = (stage: number, material: number, request: string) => this.call<void>("stage", [stage, material, request]);
+    relight = (stage: number, request: string) => this.call<boolean>("relight", [stage, request]);
+    render = (stage: number, milliseconds: number) => this.call<number>("render", [stage, milliseconds]);
+    rendered = (stage: number) => this.call<boolean>("rendered", [stage]);
+    picture = (stage: number, exposure: number) => this.call<Uint8Array>("picture", [stage, exposure]);
 }
 
-/** Runs tasks one at a time. Of the tasks that arrive while one is running, only the latest is run. */
+interface Task {
+    run: () => Promise<void>;
+    isWanted: () => boolean;
+}
+
+/**
+ * Runs tasks one at a time. Of the tasks that arrive while one is running, only the latest is run. Requests are made when a
+ * task is given, not when it is run: by then, another material with other sides may be shown.
+ */
 export class Latest {
-    private next: (() => Promise<void>) | undefined;
+    private next: Task | undefined;
     private isBusy = false;
 
     constructor(private readonly onError: (error: Error) => void) {}
 
-    run(task: () => Promise<void>): void {
-        this.next = task;
+    /** A task whose answer is no longer wanted fails silently: its material was closed, for example. */
+    run(run: () => Promise<void>, isWanted: () => boolean = () => true): void {
+        this.next = { run, isWanted };
         if (!this.isBusy) void this.drain();
     }
 
@@ -119,9 +131,9 @@ export class Latest {
             const task = this.next;
             this.next = undefined;
             try {
-                await task();
+                await task.run();
             } catch (error) {
-                this.onError(error instanceof Error ? error : new Error(String(error)));
+                if (task.isWanted()) this.onError(error instanceof Error ? error : new Error(String(error)));
             }
         }
         this.isBusy = false;

@@ -60,9 +60,8 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
         save(written.name, written.bytes as BlobPart, "application/octet-stream");
         tell(`${written.name}, with the values and nodes of the file${written.note ? `; ${written.note}` : ""}`);
     });
-    const figures = ["curves", "polar", "slices", "channels", "sphere"].map((kind) =>
-        h("div", { class: "row" }, h("span", {}, kind), button(`svg-${kind}`, "SVG", svg(kind)), button(`png-${kind}`, "PNG", png(kind))),
-    );
+    const figures = h("div", { class: "figures" });
+    const row = (kind: string) => h("div", { class: "row" }, h("span", {}, kind), button(`svg-${kind}`, "SVG", svg(kind)), button(`png-${kind}`, "PNG", png(kind)));
     dialog.append(
         h("h2", { id: "export-title" }, "Export"),
         h("h3", {}, "Values"),
@@ -70,7 +69,7 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
             if (state.a) save(`${name()}.csv`, await engine.table(state.a.desk, state.request(), state.view.sigma), "text/csv");
         }))),
         h("h3", {}, "Figures, as drawn by lobe plot"),
-        ...figures,
+        figures,
         h("h3", {}, "Pictures, as shown"),
         h("div", { class: "row" }, h("span", {}, "material"), button("png-picture", "PNG", canvas("picture", picture))),
         h("div", { class: "row" }, h("span", {}, "hemisphere"), button("png-map", "PNG", canvas("hemisphere", map))),
@@ -85,6 +84,11 @@ export function exports(engine: Engine, state: State, picture: PicturePanel, map
     );
     const present = attempt(async () => {
         if (!state.a) return;
+        const { wavelengths, is_polarised } = state.a.facts;
+        const kinds = ["curves", "polar", "slices", "channels", "sphere"];
+        if ((wavelengths?.length ?? 0) > 1) kinds.push("spectra");
+        if (is_polarised) kinds.push("mueller", "polarisation");
+        figures.replaceChildren(...kinds.map(row));
         dialog.showModal();
         const targets = JSON.parse(await engine.targets(state.a.desk)) as Target[];
         const option = ({ word, name: title, extension, is_exact }: Target) =>

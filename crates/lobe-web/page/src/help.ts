@@ -20,6 +20,7 @@ const KEYS: [string, string][] = [
     ["↑ ↓", "turn the sample by 5°"],
     ["L", "linear or logarithmic"],
     ["P", "curve or polar"],
+    ["+ −", "zoom in and out of the curve (0 shows all of it)"],
     ["1 – 9", "show that material"],
     ["C", "compare with the next material, or stop comparing"],
     ["O", "open files"],

@@ -17,32 +17,39 @@ export class Library {
         private readonly onError: (error: Error) => void,
     ) {}
 
-    /** Opens groups of files. A folder is opened as one material if possible, and otherwise file by file. */
+    /**
+     * Opens groups of files. A folder is opened as one material if possible, and otherwise file by file. The first material
+     * is shown while the others are read, unless another one is wanted.
+     */
     async open(groups: Group[], wanted: { a: string; b: string } = { a: "", b: "" }): Promise<void> {
         let first: Material | undefined;
-        for (const group of groups) {
-            for (const material of await this.opened(group)) first ??= material;
-        }
-        if (!first) return;
+        const found = (material: Material) => {
+            // One that was shown and has been read again does not change what is compared with what.
+            if (material === this.state.a || material === this.state.b) this.state.show(this.state.a);
+            else if (first || wanted.a) this.update();
+            else this.state.show(material);
+            first ??= material;
+        };
+        for (const group of groups) await this.read(group, found);
+        if (!first || (!wanted.a && !wanted.b)) return;
         const find = (path: string) => this.state.materials.find((material) => material.path === path);
         const b = wanted.b ? find(wanted.b) : undefined;
         if (b) this.state.b = b;
         this.state.show((wanted.a ? find(wanted.a) : undefined) ?? first);
     }
 
-    private async opened(group: Group): Promise<Material[]> {
+    private async read(group: Group, found: (material: Material) => void): Promise<void> {
         if (group.isFolder) {
             try {
-                return [await this.one(group.path, group.files)];
+                found(await this.one(group.path, group.files));
             } catch (error) {
                 // The files are separate materials; each is opened with its sidecar.
                 const groups = group.files.filter(({ path }) => !path.endsWith(".lobe.toml"));
-                const found: Material[] = [];
                 const failed: Error[] = [];
                 for (const { path, bytes } of groups) {
                     try {
                         const sidecar = group.files.filter((file) => file.path === `${path}.lobe.toml`);
-                        found.push(await this.one(path, [{ path, bytes }, ...sidecar]));
+                        found(await this.one(path, [{ path, bytes }, ...sidecar]));
                     } catch (inner) {
                         failed.push(inner as Error);
                     }
@@ -50,14 +57,13 @@ export class Library {
                 if (groups.length === 0) this.onError(error as Error);
                 failed.slice(0, 4).forEach((inner) => this.onError(inner));
                 if (failed.length > 4) this.onError(new Error(`${failed.length - 4} more files of ${group.path} cannot be read`));
-                return found;
             }
+            return;
         }
         try {
-            return [await this.one(group.path, group.files)];
+            found(await this.one(group.path, group.files));
         } catch (error) {
             this.onError(error as Error);
-            return [];
         }
     }
 

@@ -33,7 +33,9 @@ declare module "lobe-web" {
         albedos(material: number, request: string, sigmas: Float64Array): Float64Array;
         table(material: number, request: string, sigma: number): string;
         figure(materials: Uint32Array, requests: string, kind: string, sigmas: Float64Array): string;
-        map(material: number, request: string, sigma: number, size: number, what: string, exposure: number): Picture;
+        map(material: number, request: string, sigma: number, size: number, what: string, exposure: number, range: Float64Array): Picture;
+        half(material: number, request: string, size: number): Picture;
+        half_probe(material: number, request: string, x: number, y: number): string;
         probe(material: number, request: string, sigma: number, x: number, y: number): string;
         surface(material: number, request: string, sigma: number, rows: number, columns: number): Float32Array;
         compare(a: number, b: number, request: string): string;
@@ -41,10 +43,10 @@ declare module "lobe-web" {
         targets(material: number): string;
         convert(material: number, word: string, channel: string): File;
         ball(material: number, request: string, size: number, toward: Float32Array, exposure: number): Uint8Array;
-        stage(material: number, request: string): void;
-        relight(request: string): boolean;
-        render(milliseconds: number): number;
-        rendered(): boolean;
-        picture(exposure: number): Uint8Array;
+        stage(stage: number, material: number, request: string): void;
+        relight(stage: number, request: string): boolean;
+        render(stage: number, milliseconds: number): number;
+        rendered(stage: number): boolean;
+        picture(stage: number, exposure: number): Uint8Array;
     }
 }

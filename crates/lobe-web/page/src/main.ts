@@ -12,9 +12,11 @@ import { Details } from "./panels/details";
 import { FactsPanel } from "./panels/facts";
 import { NoMaterial, present } from "./panels/held";
 import { Lobe3D } from "./panels/lobe3d";
+import { HalfDifference } from "./panels/half";
 import { HemisphereMap } from "./panels/map";
 import { PicturePanel } from "./panels/picture";
-import { DEGREE, LOWEST, restore, State } from "./state";
+import { Polarisation } from "./panels/polarisation";
+import { DEGREE, EACH, isFew, LOWEST, restore, State } from "./state";
 
 const state = new State();
 const wanted = restore(state, location.hash);
@@ -38,6 +40,8 @@ const map = new HemisphereMap(desk, state, onError);
 const space = new Lobe3D(desk, state, onError);
 const picture = new PicturePanel(desk, studio, state, (material) => library.ready(material), onError);
 const details = new Details(desk, studio, state, (material) => library.ready(material), onError);
+const half = new HalfDifference(desk, state, onError);
+const polarisation = new Polarisation(desk, state, onError);
 const facts = new FactsPanel(state);
 
 // The controls for what is shown of the material.
@@ -134,8 +138,8 @@ const aside = h("aside", {}, library.element, ...facts.elements, details.albedo)
 const board = h(
     "div",
     { class: "board" },
-    h("div", { class: "stack" }, curves.element, picture.element, details.spectrum),
-    h("div", { class: "stack" }, map.element, space.element, details.compare),
+    h("div", { class: "stack" }, curves.element, picture.element, half.element, details.spectrum),
+    h("div", { class: "stack" }, map.element, space.element, polarisation.element, details.compare),
 );
 const desktop = h("main", { class: "desk", hidden: true }, bar, h("div", { class: "columns" }, aside, board));
 document.querySelector("#app")?.append(top, welcome, desktop, messages, dialogs.export);
@@ -153,7 +157,8 @@ function updateBar(): void {
     side.replaceChildren(...words.map(({ value, text }) => h("option", { value, selected: value === `${view.side} ${view.scatter}` }, text)));
     side.hidden = words.length < 2;
     const all = a.facts.quantity.startsWith("channel") ? `default: ${a.facts.quantity}` : a.facts.quantity || "value";
-    channel.replaceChildren(h("option", { value: "" }, all), ...a.facts.channels.map((name) => h("option", { value: name, selected: name === view.channel }, name)));
+    const each = isFew(a.facts.channels) && h("option", { value: EACH, selected: view.channel === EACH }, "each channel, in curves");
+    channel.replaceChildren(...[h("option", { value: "" }, all), each].filter((option) => option !== false), ...a.facts.channels.map((name) => h("option", { value: name, selected: name === view.channel }, name)));
     channel.hidden = a.facts.channels.length < 2;
     const sigmas = a.facts.sides.find(({ side }) => side === view.side)?.sigmas ?? [];
     refill(
@@ -189,6 +194,8 @@ state.listen((what) => {
         curves.update();
         map.update();
         space.update();
+        half.update();
+        polarisation.update();
     }
     if (what === "light") details.light();
     if (what === "view" || what === "materials") details.update();
@@ -228,6 +235,9 @@ window.addEventListener("keydown", (event) => {
         ArrowUp: () => turn(5),
         ArrowDown: () => turn(-5),
         l: () => state.set({ scale: view.scale === "log" ? "linear" : "log" }),
+        "+": () => curves.zoom(0.5),
+        "-": () => curves.zoom(2),
+        "0": () => curves.zoom(Infinity),
         p: () => state.set({ chart: view.chart === "curve" ? "polar" : "curve" }),
         c: () => {
             const others = materials.filter((material) => material !== a);
@@ -246,8 +256,11 @@ window.addEventListener("keydown", (event) => {
 });
 
 window.addEventListener("hashchange", () => {
-    restore(state, location.hash);
-    state.changed("materials");
+    const { a, b } = restore(state, location.hash);
+    const find = (path: string) => state.materials.find((material) => material.path === path);
+    if (a) state.b = find(b);
+    state.show(find(a) ?? state.a);
+    picture.update();
 });
 
 for (const engine of [desk, studio]) {
@@ -274,4 +287,4 @@ declare global {
         explorer: { state: State; desk: Engine; studio: Engine; took(): Record<string, number> };
     }
 }
-window.explorer = { state, desk, studio, took: () => ({ opened: opened.milliseconds, opens: opened.count, curve: curves.took, preview: picture.took }) };
+window.explorer = { state, desk, studio, took: () => ({ opened: opened.milliseconds, opens: opened.count, curve: curves.took, curves: curves.updates, preview: picture.took, previews: picture.previews }) };

@@ -54,6 +54,7 @@ export interface View {
     psi: number;
     chart: "curve" | "polar";
     map: "values" | "colours" | "dolp" | "difference";
+    stokes: "polarisation" | "mueller";
     form: "ball" | "cloth" | "flat";
     sky: "studio" | "overcast" | "dusk" | "dark";
     lamp: [number, number, number];
@@ -63,6 +64,11 @@ export interface View {
 export const DEGREE = Math.PI / 180;
 /** The largest polar angle of the light; beyond it, the horizon matters more than the material. */
 export const LOWEST = 88 * DEGREE;
+
+/** In place of the name of a channel: each in curves of its own. */
+export const EACH = "*";
+/** `true` if there are few enough channels for curves of each. */
+export const isFew = (channels: string[]): boolean => channels.length > 1 && channels.length <= 8;
 
 export class State {
     materials: Material[] = [];
@@ -78,6 +84,7 @@ export class State {
         psi: 0,
         chart: "curve",
         map: "values",
+        stokes: "polarisation",
         form: "ball",
         sky: "studio",
         lamp: [-0.55, 0.62, 0.56],
@@ -104,9 +111,9 @@ export class State {
         this.changed(what);
     }
 
-    /** The request to the module, as JSON. */
-    request(material: Material | undefined = this.a): string {
-        const { side, scatter, psi, scale, channel } = this.view;
+    /** The request to the module, as JSON. Of a channel that the material does not have, all are reduced to one value. */
+    request(material: Material | undefined = this.a, channel = this.view.channel): string {
+        const { side, scatter, psi, scale } = this.view;
         const hasChannel = material?.facts.channels.includes(channel) ?? false;
         return JSON.stringify({ side, scatter, psi, scale, channel: hasChannel ? channel : "" });
     }
@@ -128,7 +135,8 @@ export class State {
                 view.side = side.side;
                 if (!side.scatters.includes(view.scatter)) view.scatter = side.scatters[0];
             }
-            if (!material.facts.channels.includes(view.channel)) view.channel = "";
+            const { channels } = material.facts;
+            if (!channels.includes(view.channel) && (view.channel !== EACH || !isFew(channels))) view.channel = "";
             if (view.map === "dolp" && !material.facts.is_polarised) view.map = "values";
         }
         if (!this.b && this.view.map === "difference") this.view.map = "values";
@@ -142,6 +150,7 @@ const WORDS: Partial<Record<keyof View, readonly string[]>> = {
     scale: ["log", "linear"],
     chart: ["curve", "polar"],
     map: ["values", "colours", "dolp", "difference"],
+    stokes: ["polarisation", "mueller"],
     form: ["ball", "cloth", "flat"],
     sky: ["studio", "overcast", "dusk", "dark"],
 };
@@ -170,6 +179,7 @@ export function link(state: State): string {
 /** Restores the view of a link, ignoring invalid values. Returns the paths of the files that it showed. */
 export function restore(state: State, hash: string): { a: string; b: string } {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
+    if (words.size === 0) return { a: "", b: "" };
     const view = state.view as unknown as Record<string, unknown>;
     for (const [key, known] of Object.entries(WORDS)) {
         const word = words.get(key);

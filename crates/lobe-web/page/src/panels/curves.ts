@@ -3,7 +3,7 @@ import uPlot from "uplot";
 
 import { choice, colour, degrees, fit, h, panel, short } from "../dom";
 import { type Engine, Latest } from "../engine";
-import { DEGREE, LOWEST, type Material, type State } from "../state";
+import { DEGREE, EACH, isFew, LOWEST, type Material, type State } from "../state";
 
 interface Curve {
     theta: Float64Array;
@@ -11,7 +11,22 @@ interface Curve {
     flags: Float64Array;
 }
 
+/** A curve that is drawn. */
+interface Drawn {
+    /** What tells it from the others; empty if there is only one. */
+    name: string;
+    /** The name of its colour in the style sheet. */
+    tone: string;
+    curve: Curve;
+}
+
 const ROW = 3;
+/** All viewing angles, in degrees, and the smallest range that zooming shows. */
+const ALL: [number, number] = [-90, 90];
+const LEAST = 0.5;
+/** The colours of channels that have none of their own. */
+const TONES = ["a", "b", "c", "d", "red", "green", "blue", "quiet"];
+const OWN: Record<string, string> = { r: "red", red: "red", g: "green", green: "green", b: "blue", blue: "blue" };
 
 function unpacked(rows: Float64Array): Curve {
     const count = rows.length / ROW;
@@ -21,23 +36,31 @@ function unpacked(rows: Float64Array): Curve {
 
 export class Curves {
     readonly element: HTMLElement;
-    /** How long the last curve took, in milliseconds. */
+    /** How long the last curves took, in milliseconds, and how often they were drawn. */
     took = 0;
+    updates = 0;
     private readonly body = h("div", { class: "plot", id: "curve-plot" });
     private readonly canvas = h("canvas", { class: "polar", hidden: true, tabindex: 0, "aria-label": "Lobe in polar coordinates" });
     private readonly readout = h("output", { class: "readout", id: "curve-value" });
     private readonly kind;
+    private readonly zooms;
     private plot: uPlot | undefined;
-    private curves: { material: Material; curve: Curve }[] = [];
+    private readonly keys = h("div", { class: "keys", hidden: true });
+    private curves: Drawn[] = [];
     private shape = "";
+    /** The angles that are shown, in degrees. */
+    private range = ALL;
     private readonly latest: Latest;
 
     constructor(private readonly engine: Engine, private readonly state: State, onError: (error: Error) => void) {
         this.latest = new Latest(onError);
         const kinds = [{ value: "curve", text: "Curve" }, { value: "polar", text: "Polar" }] as const;
         this.kind = choice("Coordinates", kinds, () => state.view.chart, (chart) => state.set({ chart }));
-        const hint = h("p", { class: "hint" }, "Drag to move the light. Viewing angles are positive away from it.");
-        this.element = panel("curves", "In the plane of incidence", [this.kind], this.body, this.canvas, this.readout, hint);
+        const zooms = [["−", "Zoom out", 2], ["+", "Zoom in", 0.5]] as const;
+        const buttons = zooms.map(([text, title, by]) => h("button", { type: "button", class: "small", title, "aria-label": title, onclick: () => this.zoom(by) }, text));
+        this.zooms = h("div", { class: "choice", role: "group", "aria-label": "Zoom" }, ...buttons);
+        const hint = h("p", { class: "hint" }, "Drag to move the light, turn the wheel with Ctrl to zoom. Viewing angles are positive away from the light.");
+        this.element = panel("curves", "In the plane of incidence", [this.zooms, this.kind], this.body, this.canvas, this.keys, this.readout, hint);
         this.follow(this.canvas, (event) => this.polarAngle(event));
         new ResizeObserver(() => this.resize()).observe(this.body.parentElement ?? this.body);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw(true));
@@ -47,18 +70,28 @@ export class Curves {
         this.kind.update();
         const { a, b } = this.state;
         if (!a) return;
+        const { sigma, channel } = this.state.view;
+        const { channels, name } = a.facts;
+        const isEach = channel === EACH && !b && isFew(channels);
+        const wanted: [Material, string, string, string][] = isEach
+            ? channels.map((name, at) => [a, this.state.request(a, name), name, OWN[name.toLowerCase()] ?? TONES[at % TONES.length]])
+            : [[a, this.state.request(a), b ? name : "", "a"]];
+        if (b) wanted.push([b, this.state.request(b), b.facts.name, "b"]);
+        const isWanted = () => this.state.a === a && this.state.b === b;
         this.latest.run(async () => {
             const begun = performance.now();
-            const materials = b ? [a, b] : [a];
-            const { sigma } = this.state.view;
-            const curve = async (material: Material) => ({
-                material,
-                curve: unpacked(await this.engine.curve(material.desk, this.state.request(material), sigma)),
+            const curve = async (material: Material, request: string, name: string, tone: string): Promise<Drawn> => ({
+                name,
+                tone,
+                curve: unpacked(await this.engine.curve(material.desk, request, sigma)),
             });
-            this.curves = await Promise.all(materials.map(curve));
+            this.curves = await Promise.all(wanted.map((curves) => curve(...curves)));
+            this.keys.hidden = this.curves.length < 2;
+            this.keys.replaceChildren(...this.curves.map(({ name, tone }) => h("span", {}, h("span", { class: "dot", style: `background: var(--${tone})` }), name)));
             this.redraw();
             this.took = performance.now() - begun;
-        });
+            this.updates++;
+        }, isWanted);
     }
 
     /** Redraws the curves. The chart is rebuilt if something other than the values has changed, or if `anew`. */
@@ -67,12 +100,13 @@ export class Curves {
         const isPolar = chart === "polar";
         this.body.hidden = isPolar;
         this.canvas.hidden = !isPolar;
+        this.zooms.hidden = isPolar;
         if (this.curves.length === 0) return;
         if (isPolar) {
             this.drawPolar();
             return;
         }
-        const shape = `${scale} ${this.curves.map(({ material }) => material.path).join("|")}`;
+        const shape = `${scale} ${this.curves.map(({ name, tone }) => `${name} ${tone}`).join("|")}`;
         if (anew || shape !== this.shape || !this.plot) this.make(shape);
         this.plot?.setData(this.data());
         // The readout must follow the new values even if the pointer does not move.
@@ -95,8 +129,8 @@ export class Curves {
         this.shape = shape;
         const axis = { stroke: colour("quiet"), grid: { stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, font: "12px system-ui, sans-serif" };
         const series: uPlot.Series[] = [{}];
-        for (const [at] of this.curves.entries()) {
-            const stroke = colour(at === 0 ? "a" : "b");
+        for (const { tone } of this.curves) {
+            const stroke = colour(tone);
             series.push({ stroke, width: 1, dash: [3, 4], points: { show: false }, spanGaps: false });
             series.push({ stroke, width: 2, points: { show: false }, spanGaps: false });
             series.push({ stroke, width: 0, paths: () => null, points: { show: true, size: 5, fill: stroke, stroke }, spanGaps: false });
@@ -108,11 +142,11 @@ export class Curves {
                 legend: { show: false },
                 cursor: { drag: { x: false, y: false }, points: { show: false }, y: false },
                 scales: {
-                    x: { time: false, range: [-90, 90] },
+                    x: { time: false, range: () => this.range },
                     y: isLog ? { distr: 3, range: (_, low, high) => decades(low, high) } : { range: (_, low, high) => [Math.min(0, low ?? 0), (high || 1) * 1.06] },
                 },
                 axes: [
-                    { ...axis, values: (_, ticks) => ticks.map((tick) => `${String(tick).replace("-", "−")}°`), splits: () => [-90, -60, -30, 0, 30, 60, 90], size: 34 },
+                    { ...axis, values: (_, ticks) => ticks.map((tick) => `${String(tick).replace("-", "−")}°`), splits: () => ticks(this.range), size: 34 },
                     { ...axis, values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))), size: 62 },
                 ],
                 series,
@@ -125,6 +159,26 @@ export class Curves {
             const box = this.plot?.over.getBoundingClientRect();
             return box && this.plot ? this.plot.posToVal(event.clientX - box.left, "x") * DEGREE : undefined;
         });
+        this.plot.over.addEventListener("dblclick", () => this.zoom(Infinity));
+        // With Ctrl, as for two fingers on a touchpad: without, the wheel moves the page.
+        this.plot.over.addEventListener("wheel", (event) => {
+            if (!event.ctrlKey || !this.plot) return;
+            event.preventDefault();
+            const at = this.plot.posToVal(event.clientX - this.plot.over.getBoundingClientRect().left, "x");
+            this.zoom(Math.exp(0.002 * event.deltaY), at);
+        }, { passive: false });
+    }
+
+    /** Shows so many times as many angles, about one in degrees that stays where it is: the mirror direction, if it is shown. */
+    zoom(by: number, at?: number): void {
+        const [low, high] = this.range;
+        const mirror = this.state.view.sigma / DEGREE;
+        const fixed = at ?? (mirror >= low && mirror <= high ? mirror : 0.5 * (low + high));
+        const width = Math.min(ALL[1] - ALL[0], Math.max(LEAST, (high - low) * by));
+        const start = Number.isFinite(by) ? fixed - ((fixed - low) / (high - low)) * width : ALL[0];
+        const first = Math.min(ALL[1] - width, Math.max(ALL[0], start));
+        this.range = [first, first + width];
+        this.plot?.setData(this.data());
     }
 
     /** Draws lines at the light and at the mirror direction. */
@@ -132,6 +186,7 @@ export class Curves {
         const { sigma, scatter } = this.state.view;
         const { ctx, bbox } = plot;
         const line = (angle: number, text: string, name: string) => {
+            if (angle / DEGREE < this.range[0] || angle / DEGREE > this.range[1]) return;
             const x = plot.valToPos(angle / DEGREE, "x", true);
             ctx.save();
             ctx.strokeStyle = colour(name);
@@ -161,20 +216,18 @@ export class Curves {
             return;
         }
         const theta = (plot.data[0] as number[])[at];
-        const words = this.curves.map(({ material }, index) => {
+        const words = this.curves.map(({ name }, index) => {
             const [f, measured] = [1, 2].map((k) => (plot.data[3 * index + k] as (number | null)[])[at]);
-            const name = this.curves.length > 1 ? `${material.facts.name} ` : "";
-            return `${name}${f === null ? "–" : short(f)} 1/sr${measured === null && f !== null ? " (continued)" : ""}`;
+            return `${name && `${name} `}${f === null ? "–" : short(f)} 1/sr${measured === null && f !== null ? " (continued)" : ""}`;
         });
         this.readout.textContent = `θ ${degrees(theta * DEGREE)}: ${words.join(", ")}`;
     }
 
     private peak(): string {
-        const words = this.curves.map(({ curve }, index) => {
+        const words = this.curves.map(({ name, curve }) => {
             let best = 0;
             curve.f.forEach((f, at) => (best = f > curve.f[best] ? at : best));
-            const name = this.curves.length > 1 ? `${["A", "B"][index]}: ` : "";
-            return `${name}peak ${short(curve.f[best])} 1/sr at ${degrees(curve.theta[best])}`;
+            return `${name && `${name}: `}peak ${short(curve.f[best])} 1/sr at ${degrees(curve.theta[best])}`;
         });
         return words.join(", ");
     }
@@ -255,8 +308,8 @@ export class Curves {
             const [px, py] = point(angle * DEGREE, 1 + (16 * scale) / radius);
             if (Math.abs(angle) < 90) context.fillText(`${String(angle).replace("-", "−")}°`, px, py + 4 * scale);
         }
-        for (const [at, { curve }] of this.curves.entries()) {
-            context.strokeStyle = colour(at === 0 ? "a" : "b");
+        for (const { tone, curve } of this.curves) {
+            context.strokeStyle = colour(tone);
             context.fillStyle = context.strokeStyle;
             context.lineWidth = 2 * scale;
             context.beginPath();
@@ -287,6 +340,14 @@ function decades(low: number | null, high: number | null): [number, number] {
     const bottom = Math.max(low && low > 0 ? low : top / 10, top * 1e-6);
     const end = 10 ** Math.ceil(Math.log10(top) - 1e-9);
     return [Math.min(10 ** Math.floor(Math.log10(bottom) + 1e-9), end / 10), end];
+}
+
+/** Round angles in a range of degrees, eight at most. */
+function ticks([low, high]: [number, number]): number[] {
+    const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30].find((step) => (high - low) / step <= 7) ?? 30;
+    const first = Math.ceil(low / step - 1e-9);
+    const count = Math.floor(high / step + 1e-9) - first + 1;
+    return Array.from({ length: count }, (_, at) => Number(((first + at) * step).toFixed(1)) + 0);
 }
 
 function ringsOf(low: number, high: number): number[] {

@@ -50,16 +50,17 @@ export class Details {
         this.compare.hidden = !b;
         if (!a) return;
         this.light();
+        const request = this.state.request(a);
         this.latest.albedo.run(async () => {
             const side = a.facts.sides.find((side) => side.side === this.state.view.side);
             const sigmas = new Float64Array(side?.sigmas ?? []);
-            const rows = await this.slow.albedos(await this.ready(a), this.state.request(a), sigmas);
+            const rows = await this.slow.albedos(await this.ready(a), request, sigmas);
             this.showAlbedos(rows);
-        });
+        }, () => this.state.a === a);
         if (!b) return;
         this.latest.compare.run(async () => {
             this.numbers.replaceChildren(h("dt", {}, "Comparing…"));
-            const { difference, visible } = JSON.parse(await this.engine.compare(a.desk, b.desk, this.state.request(a))) as Compared;
+            const { difference, visible } = JSON.parse(await this.engine.compare(a.desk, b.desk, request)) as Compared;
             const rows: [string, string][] = [
                 ["ΔE, mean", short(visible.mean)],
                 ["ΔE, 95th percentile", short(visible.percentile_95)],
@@ -70,7 +71,7 @@ export class Details {
                 ["compared in", `${difference.channels.slice(0, 6).join(" ")}, at ${difference.pairs} pairs of directions`],
             ];
             this.numbers.replaceChildren(...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
-        });
+        }, () => this.state.a === a && this.state.b === b);
     }
 
     private showAlbedos(rows: Float64Array): void {
@@ -96,10 +97,11 @@ export class Details {
     light(): void {
         const { a } = this.state;
         if (!a || this.spectrum.hidden) return;
+        const [request, { sigma }] = [this.state.request(a), this.state.view];
         this.latest.spectrum.run(async () => {
-            const text = await this.engine.spectra(a.desk, this.state.request(a), this.state.view.sigma, new Float64Array());
+            const text = await this.engine.spectra(a.desk, request, sigma, new Float64Array());
             this.showSpectra(JSON.parse(text) as Spectrum[]);
-        });
+        }, () => this.state.a === a);
     }
 
     private showSpectra(spectra: Spectrum[]): void {

@@ -1,5 +1,5 @@
 // The lobe as a surface in space, drawn with WebGL2. Dragging turns the view.
-import { colour, h, fit, panel } from "../dom";
+import { colour, degrees, fit, h, panel, short } from "../dom";
 import { type Engine, Latest } from "../engine";
 import type { State } from "../state";
 
@@ -41,37 +41,50 @@ export class Lobe3D {
     private readonly canvas = h("canvas", { class: "space", tabindex: 0, role: "img", "aria-label": "The lobe in space; arrow keys turn it" });
     private readonly gl = this.canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
     private program: WebGLProgram | undefined;
-    private meshes: { buffer: WebGLBuffer; name: string }[] = [];
+    private meshes: { buffer: WebGLBuffer; name: string; file: string; surface: Float32Array }[] = [];
+    private matrix = new Float32Array(16);
+    private readonly readout = h("output", { class: "readout", id: "space-value" });
     private readonly indices: Uint32Array;
     private indexBuffer: WebGLBuffer | null = null;
     private lines: WebGLBuffer | null = null;
     private turn = -0.35;
     private lift = 0.42;
+    private size = 1;
     private readonly latest: Latest;
 
     constructor(private readonly engine: Engine, private readonly state: State, onError: (error: Error) => void) {
         this.latest = new Latest(onError);
         this.indices = triangles();
-        const hint = h("p", { class: "hint" }, this.gl ? "The distance from the origin is the value. Drag to turn the view; double-click to reset it." : "The surface cannot be drawn, because this browser has no WebGL2.");
-        this.element = panel("space", "Lobe in space", [], this.canvas, hint);
+        const hint = h("p", { class: "hint" }, this.gl ? "The distance from the origin is the value. Drag to turn the view, turn the wheel with Ctrl or press + and − to zoom; double-click to reset it." : "The surface cannot be drawn, because this browser has no WebGL2.");
+        this.element = panel("space", "Lobe in space", [], this.canvas, this.readout, hint);
         if (this.gl) this.prepare(this.gl);
         this.canvas.style.touchAction = "none";
         this.canvas.addEventListener("pointerdown", (event) => this.canvas.setPointerCapture(event.pointerId));
         this.canvas.addEventListener("pointermove", (event) => {
             if (event.buttons & 1) this.rotate(event.movementX * 0.01, event.movementY * 0.01);
+            else this.say(event);
         });
+        this.canvas.addEventListener("pointerleave", () => (this.readout.textContent = ""));
+        // With Ctrl, as for two fingers on a touchpad: without, the wheel moves the page.
+        this.canvas.addEventListener("wheel", (event) => {
+            if (!event.ctrlKey) return;
+            event.preventDefault();
+            this.zoom(Math.exp(-0.002 * event.deltaY));
+        }, { passive: false });
         this.canvas.addEventListener("dblclick", () => {
-            [this.turn, this.lift] = [-0.35, 0.42];
+            [this.turn, this.lift, this.size] = [-0.35, 0.42, 1];
             this.draw();
         });
         this.canvas.addEventListener("keydown", (event) => {
             const step = 0.12;
             const keys: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
-            const by = keys[event.key];
-            if (!by) return;
+            const zooms: Record<string, number> = { "+": 1.25, "-": 0.8 };
+            const [by, zoom] = [keys[event.key], zooms[event.key]];
+            if (!by && !zoom) return;
             event.preventDefault();
             event.stopPropagation();
-            this.rotate(...by);
+            if (by) this.rotate(...by);
+            else this.zoom(zoom);
         });
         new ResizeObserver(() => this.draw()).observe(this.canvas);
     }
@@ -80,6 +93,37 @@ export class Lobe3D {
         this.turn += x;
         this.lift = Math.min(1.5, Math.max(-0.6, this.lift + y));
         this.draw();
+    }
+
+    private zoom(by: number): void {
+        this.size = Math.min(40, Math.max(0.5, this.size * by));
+        this.draw();
+    }
+
+    /** Shows the direction and the value of the point of the surface that is nearest to the pointer. */
+    private say(event: PointerEvent): void {
+        const box = this.canvas.getBoundingClientRect();
+        const [x, y] = [(2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height];
+        const m = this.matrix;
+        // In pixels: points this near to the pointer are under it, and of those the one nearest to the viewer is seen.
+        const NEAR = 7;
+        let [found, depth] = ["", Infinity];
+        for (const { surface, file } of this.meshes) {
+            for (let at = 0; at < surface.length; at += GIVEN) {
+                const [px, py, pz] = surface.subarray(at, at + 3);
+                const across = m[0] * px + m[4] * py + m[8] * pz + m[12] - x;
+                const up = m[1] * px + m[5] * py + m[9] * pz + m[13] - y;
+                const behind = m[2] * px + m[6] * py + m[10] * pz;
+                if (behind >= depth || Math.hypot(across * 0.5 * box.width, up * 0.5 * box.height) > NEAR) continue;
+                const radius = Math.hypot(px, py, pz);
+                if (radius < 1e-3) continue;
+                depth = behind;
+                const [theta, phi] = [Math.acos(Math.min(1, Math.abs(pz) / radius)), Math.atan2(py, px)];
+                const name = this.meshes.length > 1 ? `${file} ` : "";
+                found = `θ ${degrees(theta)}, φ ${degrees(phi < 0 ? phi + 2 * Math.PI : phi)}: ${name}${short(surface[at + 3])} 1/sr`;
+            }
+        }
+        this.readout.textContent = found;
     }
 
     private prepare(gl: WebGL2RenderingContext): void {
@@ -105,20 +149,22 @@ export class Lobe3D {
         const { a, b } = this.state;
         const { gl } = this;
         if (!a || !gl) return;
+        const { sigma } = this.state.view;
+        const shown = b ? [a, b] : [a];
+        const requests = shown.map((material) => this.state.request(material));
         this.latest.run(async () => {
-            const { sigma } = this.state.view;
             const surfaces = await Promise.all(
-                (b ? [a, b] : [a]).map((material) => this.engine.surface(material.desk, this.state.request(material), sigma, ROWS, COLUMNS)),
+                shown.map((material, at) => this.engine.surface(material.desk, requests[at], sigma, ROWS, COLUMNS)),
             );
             for (const { buffer } of this.meshes) gl.deleteBuffer(buffer);
             this.meshes = surfaces.map((surface, at) => {
                 const buffer = gl.createBuffer();
                 gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
                 gl.bufferData(gl.ARRAY_BUFFER, withNormals(surface, this.indices), gl.STATIC_DRAW);
-                return { buffer, name: at === 0 ? "a" : "b" };
+                return { buffer, name: at === 0 ? "a" : "b", file: shown[at].facts.name, surface };
             });
             this.draw();
-        });
+        }, () => this.state.a === a && this.state.b === b);
     }
 
     draw(): void {
@@ -135,8 +181,8 @@ export class Lobe3D {
         const around = psi + Math.PI / 2 - this.turn;
         const eye: Vector = [Math.cos(around) * Math.cos(this.lift), Math.sin(around) * Math.cos(this.lift), Math.sin(this.lift)];
         const isDown = (side === "back") !== (scatter === "transmission");
-        const matrix = view(eye, this.canvas.width / this.canvas.height, isDown);
-        gl.uniformMatrix4fv(gl.getUniformLocation(program, "matrix"), false, matrix);
+        this.matrix = view(eye, this.canvas.width / this.canvas.height, isDown, this.size);
+        gl.uniformMatrix4fv(gl.getUniformLocation(program, "matrix"), false, this.matrix);
         gl.uniform3fv(gl.getUniformLocation(program, "eye"), eye);
         const tint = gl.getUniformLocation(program, "tint");
         const flat = gl.getUniformLocation(program, "flat_");
@@ -214,14 +260,15 @@ function withNormals(surface: Float32Array, indices: Uint32Array): Float32Array 
 }
 
 /** The matrix of an orthographic view from `eye`, with z up. */
-function view(eye: Vector, aspect: number, isDown: boolean): Float32Array {
+function view(eye: Vector, aspect: number, isDown: boolean, size: number): Float32Array<ArrayBuffer> {
     const right: Vector = [-eye[1], eye[0], 0];
     const length = Math.hypot(...right) || 1;
     const [rx, ry] = [right[0] / length, right[1] / length];
     const up: Vector = [-eye[2] * ry, eye[2] * rx, eye[0] * ry - eye[1] * rx];
-    const zoom = 0.8;
+    const zoom = 1.1 * size;
     const [sx, sy] = aspect > 1 ? [zoom / aspect, zoom] : [zoom, zoom * aspect];
-    const shift = isDown ? 0.3 : -0.38;
+    // The origin stays where it is when the lobe is enlarged.
+    const shift = (isDown ? 0.3 : -0.38) / size;
     // Column by column.
     return new Float32Array([
         sx * rx, sy * up[0], -0.3 * eye[0], 0,

@@ -1,4 +1,4 @@
-// The material under a lamp that can be dragged, path-traced while it is shown.
+// The materials under a lamp that can be dragged, path-traced while they are shown.
 import { choice, h, panel } from "../dom";
 import { type Engine, Latest } from "../engine";
 import type { Material, State } from "../state";
@@ -6,21 +6,47 @@ import type { Material, State } from "../state";
 /** Milliseconds of rendering between two updates of the picture. */
 const SLICE = 120;
 const SAMPLES = 256;
+/** Pixels along each side of the picture of one material, and of each of two. */
+const SIZES = [512, 384];
+
+/** A material on its canvas. */
+class Scene {
+    readonly canvas: HTMLCanvasElement;
+    /** The material on the stage of this number in the worker. */
+    staged: Material | undefined;
+    private readonly context: CanvasRenderingContext2D | null;
+
+    constructor(readonly stage: number) {
+        this.canvas = h("canvas", { class: "scene", width: SIZES[0], height: SIZES[0], tabindex: 0, role: "img" });
+        this.context = this.canvas.getContext("2d");
+    }
+
+    put(rgba: Uint8Array, isBall: boolean): void {
+        const size = Math.round(Math.sqrt(rgba.length / 4));
+        if (!this.context || size === 0) return;
+        const source = new OffscreenCanvas(size, size);
+        source.getContext("2d")?.putImageData(new ImageData(new Uint8ClampedArray(rgba), size, size), 0, 0);
+        const { width } = this.canvas;
+        if (isBall) this.context.clearRect(0, 0, width, width);
+        this.context.imageSmoothingQuality = "high";
+        this.context.drawImage(source, 0, 0, width, width);
+    }
+}
 
 export class PicturePanel {
     readonly element: HTMLElement;
-    /** How long the last preview took, in milliseconds. */
+    /** How long the last preview took, in milliseconds, and how many there were. */
     took = 0;
-    private readonly canvas = h("canvas", { class: "scene", width: 512, height: 512, tabindex: 0, role: "img", "aria-label": "The material under the lamp; arrow keys move the lamp" });
+    previews = 0;
+    private readonly scenes = [new Scene(0), new Scene(1)];
     private readonly readout = h("output", { class: "readout", id: "picture-samples" });
     private readonly forms;
     private readonly skies = h("select", { "aria-label": "Sky", id: "sky" });
     private readonly exposure = h("input", { type: "range", min: -4, max: 4, step: 0.5, "aria-label": "Exposure in stops", id: "exposure" });
+    private readonly stops = h("output", { for: "exposure" });
     private generation = 0;
-    private staged: Material | undefined;
     private isDragging = false;
     private readonly latest: Latest;
-    private readonly context = this.canvas.getContext("2d");
 
     /** `studio` renders the picture, `desk` the preview of a ball. `ready` opens a material in the studio. */
     constructor(
@@ -38,34 +64,46 @@ export class PicturePanel {
         this.skies.addEventListener("change", () => state.set({ sky: this.skies.value as typeof state.view.sky }, "picture"));
         this.exposure.addEventListener("input", () => {
             state.set({ exposure: Number(this.exposure.value) }, "exposure");
+            this.sayStops();
             void this.show();
         });
-        const exposure = h("label", { class: "inline" }, "EV", this.exposure);
+        const exposure = h("label", { class: "inline" }, "EV", this.exposure, this.stops);
         const hint = h("p", { class: "hint" }, "Drag to move the lamp. The picture is path-traced in this page, and becomes cleaner with time.");
-        this.element = panel("picture", "Picture", [this.forms, this.skies], this.canvas, h("div", { class: "row" }, this.readout, exposure), hint);
-        this.canvas.style.touchAction = "none";
-        this.canvas.addEventListener("pointerdown", (event) => {
-            this.canvas.setPointerCapture(event.pointerId);
+        const canvases = h("div", { class: "scenes" }, ...this.scenes.map(({ canvas }) => canvas));
+        this.element = panel("picture", "Picture", [this.forms, this.skies], canvases, h("div", { class: "row" }, this.readout, exposure), hint);
+        for (const { canvas } of this.scenes) this.follow(canvas);
+    }
+
+    private follow(canvas: HTMLCanvasElement): void {
+        canvas.style.touchAction = "none";
+        canvas.addEventListener("pointerdown", (event) => {
+            canvas.setPointerCapture(event.pointerId);
             this.isDragging = true;
             this.generation++;
-            this.drag(event);
+            this.drag(event, canvas);
         });
-        this.canvas.addEventListener("pointermove", (event) => {
-            if (this.isDragging) this.drag(event);
+        canvas.addEventListener("pointermove", (event) => {
+            if (this.isDragging) this.drag(event, canvas);
         });
         for (const name of ["pointerup", "pointercancel"] as const) {
-            this.canvas.addEventListener(name, () => {
+            canvas.addEventListener(name, () => {
                 if (!this.isDragging) return;
                 this.isDragging = false;
                 this.update();
             });
         }
-        this.canvas.addEventListener("keydown", (event) => this.key(event));
+        canvas.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    /** The materials that are shown, each in its scene. */
+    private shown(): { scene: Scene; material: Material }[] {
+        const { a, b } = this.state;
+        return [a, b].flatMap((material, at) => (material ? [{ scene: this.scenes[at], material }] : []));
     }
 
     /** Moves the lamp so that its reflection in the ball is near the pointer. */
-    private drag(event: PointerEvent): void {
-        const box = this.canvas.getBoundingClientRect();
+    private drag(event: PointerEvent, canvas: HTMLCanvasElement): void {
+        const box = canvas.getBoundingClientRect();
         const x = (2 * (event.clientX - box.left)) / box.width - 1;
         const y = 1 - (2 * (event.clientY - box.top)) / box.height;
         this.aim(x, y);
@@ -97,90 +135,104 @@ export class PicturePanel {
 
     /** Shows a quick picture: a ball lit by the lamp alone, or other shapes path-traced at a low resolution. */
     private preview(): void {
-        const { a } = this.state;
-        if (!a) return;
+        const { a, b } = this.state;
         this.latest.run(async () => {
             const begun = performance.now();
             const { form, lamp, exposure } = this.state.view;
-            if (form === "ball") {
-                const size = this.canvas.width;
-                const toward = new Float32Array(lamp);
-                const rgba = await this.desk.ball(a.desk, this.state.request(a), size, toward, exposure);
-                this.put(rgba, size, true);
-            } else if (this.staged === a) {
-                const size = 128;
-                if (await this.studio.relight(this.stage(size, 1))) {
-                    await this.studio.render(SLICE);
-                    this.put(await this.studio.picture(exposure), size, false);
+            for (const { scene, material } of this.shown()) {
+                if (form === "ball") {
+                    const request = this.state.request(material);
+                    scene.put(await this.desk.ball(material.desk, request, scene.canvas.width, new Float32Array(lamp), exposure), true);
+                } else if (scene.staged === material && (await this.studio.relight(scene.stage, this.request(128, 1)))) {
+                    await this.studio.render(scene.stage, SLICE);
+                    scene.put(await this.studio.picture(scene.stage, exposure), false);
                 }
             }
             this.took = performance.now() - begun;
+            this.previews++;
             this.readout.textContent = `preview, ${this.took.toFixed(0)} ms`;
-        });
+        }, () => this.state.a === a && this.state.b === b);
     }
 
-    private stage(size: number, samples: number): string {
+    private request(size: number, samples: number): string {
         const { form, sky, lamp } = this.state.view;
         return JSON.stringify({ form, sky, toward: lamp, size: [size, size], samples });
+    }
+
+    private sayStops(): void {
+        const { exposure } = this.state.view;
+        this.stops.textContent = `${exposure > 0 ? "+" : ""}${String(exposure).replace("-", "−")}`;
     }
 
     /** Restarts the picture. */
     update(): void {
         this.forms.update();
-        const { view, a } = this.state;
+        const { view } = this.state;
         this.skies.value = view.sky;
         this.exposure.value = String(view.exposure);
+        this.sayStops();
         const generation = ++this.generation;
-        if (!a) return;
-        void this.trace(a, generation).catch((error: Error) => {
+        const shown = this.shown();
+        this.scenes[1].canvas.hidden = shown.length < 2;
+        const size = SIZES[Math.max(0, shown.length - 1)];
+        for (const { scene, material } of shown) {
+            scene.canvas.setAttribute("aria-label", `${material.facts.name} under the lamp; arrow keys move the lamp`);
+            // Setting the size empties a canvas.
+            if (scene.canvas.width !== size) scene.canvas.width = scene.canvas.height = size;
+        }
+        void this.trace(shown, generation).catch((error: Error) => {
             if (generation === this.generation) this.onError(error);
         });
     }
 
-    private async trace(material: Material, generation: number): Promise<void> {
+    private async trace(shown: { scene: Scene; material: Material }[], generation: number): Promise<void> {
         const isOld = () => generation !== this.generation;
-        if (this.staged !== material) this.readout.textContent = "preparing";
-        const number = await this.ready(material);
-        if (isOld()) return;
-        const request = this.stage(this.canvas.width, SAMPLES);
-        if (this.staged !== material || !(await this.studio.relight(request))) {
-            this.staged = undefined;
-            await this.studio.stage(number, request);
-            this.staged = material;
-        }
-        while (!isOld()) {
-            const samples = await this.studio.render(SLICE);
+        for (const { scene, material } of shown) {
+            if (scene.staged !== material) this.readout.textContent = "preparing";
+            const number = await this.ready(material);
             if (isOld()) return;
-            const isDone = await this.studio.rendered();
+            const request = this.request(scene.canvas.width, SAMPLES);
+            if (scene.staged !== material || !(await this.studio.relight(scene.stage, request))) {
+                scene.staged = undefined;
+                await this.studio.stage(scene.stage, number, request);
+                scene.staged = material;
+            }
+        }
+        for (let isDone = shown.length === 0; !isDone && !isOld(); ) {
+            isDone = true;
+            let least = Infinity;
+            for (const { scene } of shown) {
+                least = Math.min(least, await this.studio.render(scene.stage, SLICE));
+                if (isOld()) return;
+                isDone = (await this.studio.rendered(scene.stage)) && isDone;
+            }
             await this.show();
-            this.readout.textContent = isDone ? `${samples} samples per pixel, done` : `${samples} of ${SAMPLES} samples per pixel`;
-            if (isDone) return;
+            if (isOld()) return;
+            this.readout.textContent = isDone ? `${least} samples per pixel, done` : `${least} of ${SAMPLES} samples per pixel`;
         }
     }
 
     private async show(): Promise<void> {
         const generation = this.generation;
-        if (!this.staged) return;
-        const rgba = await this.studio.picture(this.state.view.exposure);
-        if (generation === this.generation && !this.isDragging) this.put(rgba, Math.round(Math.sqrt(rgba.length / 4)), false);
+        for (const { scene, material } of this.shown()) {
+            if (scene.staged !== material) continue;
+            const rgba = await this.studio.picture(scene.stage, this.state.view.exposure);
+            if (generation === this.generation && !this.isDragging) scene.put(rgba, false);
+        }
     }
 
-    private put(rgba: Uint8Array, size: number, isBall: boolean): void {
-        if (!this.context || size === 0) return;
-        const source = new OffscreenCanvas(size, size);
-        source.getContext("2d")?.putImageData(new ImageData(new Uint8ClampedArray(rgba), size, size), 0, 0);
-        if (isBall) this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-        this.context.imageSmoothingQuality = "high";
-        this.context.drawImage(source, 0, 0, this.canvas.width, this.canvas.height);
-        this.canvas.classList.toggle("preview", isBall);
-    }
-
-    /** Forgets the stage, because its worker was restarted or its material has changed. */
+    /** Forgets the stages, because their worker was restarted or a material has changed. */
     forget(): void {
-        this.staged = undefined;
+        for (const scene of this.scenes) scene.staged = undefined;
     }
 
+    /** What is shown, as a PNG: two materials side by side. */
     png(): Promise<Blob | null> {
-        return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
+        const canvases = this.shown().map(({ scene }) => scene.canvas);
+        const size = canvases[0]?.width ?? 1;
+        const whole = h("canvas", { width: size * canvases.length, height: size });
+        const context = whole.getContext("2d");
+        canvases.forEach((canvas, at) => context?.drawImage(canvas, at * size, 0));
+        return new Promise((resolve) => whole.toBlob(resolve, "image/png"));
     }
 }
