@@ -41,7 +41,7 @@ export function short(value: number): string {
     if (value === 0) return "0";
     const magnitude = Math.abs(value);
     const text = magnitude >= 1e-3 && magnitude < 1e5 ? Number(value.toPrecision(4)).toString() : value.toExponential(2);
-    return text.replace("-", "−");
+    return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
 }
 
 /** Replaces what is in a box; the focus stays at its place there. */

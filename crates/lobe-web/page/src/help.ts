@@ -33,7 +33,8 @@ export function help(version: string, backends: string[]): HTMLDialogElement {
     const dialog = h(
         "dialog",
         { id: "help", "aria-labelledby": "help-title" },
-        h("h2", { id: "help-title" }, "Units, conventions, keys"),
+        // The focus is here when it opens, so that it begins at its top.
+        h("h2", { id: "help-title", tabindex: -1, autofocus: true }, "Units, conventions, keys"),
         h("p", {}, "Directions point away from the surface, with the normal on +z. Everything is computed in this page by lobe's libraries; no file leaves this computer."),
         list(WORDS, "span"),
         h("h3", {}, "Keys"),

@@ -149,6 +149,17 @@ test("curves, maps, probes and facts agree with values", () => {
     assert.equal(Math.fround(probe.value), map.values[y * size + x]);
     const [value] = explorer.eval(material, Float32Array.from(probe.wi), Float32Array.from(probe.wo), "", false);
     assert.equal(Math.fround(probe.channels[0]), value);
+    // The same for half and difference angles: a pixel, the value at its centre, and that of its directions.
+    const half = explorer.half(material, request, size);
+    const at = JSON.parse(explorer.half_probe(material, request, (x + 0.5) / size, 1 - (y + 0.5) / size));
+    assert.ok(Math.abs(at.value / half.values[y * size + x] - 1) < 1e-4, `${at.value} ${half.values[y * size + x]}`);
+    const turned = (across) => {
+        const [along, z] = [Math.cos(at.theta_d) * Math.sin(at.theta_h), Math.cos(at.theta_d) * Math.cos(at.theta_h)];
+        return Float32Array.of(along * Math.cos(0.3) - across * Math.sin(0.3), along * Math.sin(0.3) + across * Math.cos(0.3), z);
+    };
+    const [there] = explorer.eval(material, turned(Math.sin(at.theta_d)), turned(-Math.sin(at.theta_d)), "", false);
+    assert.ok(Math.abs(at.value / there - 1) < 1e-4, `${at.value} ${there}`);
+    assert.equal(JSON.parse(explorer.half_probe(material, request, 1.1, 0.5)), null);
     assert.throws(() => explorer.curve(material, '{"side": "back"}', 0.5), /found no values for light from the back/);
     assert.throws(() => explorer.curve(material, "{", 0.5), /expected JSON/);
     assert.throws(() => explorer.facts(99), /found no material 99/);

@@ -119,7 +119,7 @@ export class Details {
                 scales: { x: { time: false }, y: isLog ? { distr: 3 } : {} },
                 axes: [{ ...axis(), label: "nm", labelSize: 18, size: 32 }, { ...axis(), values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))), size: 62 }],
                 series: [
-                    { label: "nm" },
+                    { label: "nm", value: (_: uPlot, nm: number | null) => (nm === null ? "–" : short(nm)) },
                     ...spectra.map(({ theta }, at) => ({
                         label: `θ ${degrees(theta)}`,
                         stroke: colour(tones[at % tones.length]),

@@ -18,8 +18,8 @@ function rows(pairs: [string, string][]): HTMLElement {
 export function said({ format, bytes, parts, source, notes, doubts }: Pick<FileFacts, "format" | "bytes" | "parts" | "source" | "notes" | "doubts">): (Node | false)[] {
     return [
         rows([["format", format], ["size", size(bytes)]]),
-        ...parts.map((part) => h("div", {}, part.name && h("h3", {}, part.name), rows(part.rows))),
-        source.length > 0 && h("details", {}, h("summary", {}, `Header: ${source.length} entries`), rows(source)),
+        ...parts.map((part) => (parts.length > 2 ? h("details", {}, h("summary", {}, part.name || part.rows[0]?.[1] || "part"), rows(part.rows)) : h("div", {}, part.name && h("h3", {}, part.name), rows(part.rows)))),
+        source.length > 0 && h("details", {}, h("summary", {}, `Header: ${source.length} ${source.length === 1 ? "entry" : "entries"}`), rows(source)),
         ...notes.map((note) => h("p", { class: "note" }, `Read as: ${note}`)),
         ...doubts.map((doubt) => h("p", { class: "warn" }, `Doubtful: ${doubt}`)),
     ];
