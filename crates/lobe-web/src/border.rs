@@ -5,8 +5,8 @@ use wasm_bindgen::prelude::*;
 
 use crate::{
     Ball, Evaluator, Map, Opened, Quantities, Request, Session, Shades, Studio, StudioRequest, albedo_rows, backends,
-    compare, converted, curve, difference_map, evaluate, facts, figure, findings, half_difference, half_probe, map,
-    probe, spectra, surface, table, targets,
+    compare, converted, curve, difference_map, evaluate, evaluate_into, facts, figure, findings, half_difference,
+    half_probe, map, probe, spectra, surface, table, targets,
 };
 
 #[wasm_bindgen]
@@ -113,6 +113,33 @@ impl Explorer {
     pub fn eval(&self, material: u32, wi: &[f32], wo: &[f32], backend: &str, strict: bool) -> Answer<Vec<f32>> {
         let on = Evaluator::new(backend, strict).map_err(said)?;
         evaluate(self.opened(material)?, wi, wo, on).map_err(said)
+    }
+
+    /// The shortest time, in milliseconds, in which these values are evaluated `times` times in a row, in as many turns. It
+    /// is that of the kernels: values stay in the memory of the module.
+    #[allow(clippy::too_many_arguments, reason = "JavaScript passes numbers and text, not structs")]
+    pub fn time(
+        &self,
+        material: u32,
+        wi: &[f32],
+        wo: &[f32],
+        backend: &str,
+        strict: bool,
+        times: u32,
+        turns: u32,
+    ) -> Answer<f64> {
+        let on = Evaluator::new(backend, strict).map_err(said)?;
+        let opened = self.opened(material)?;
+        let mut values = Vec::new();
+        let mut least = f64::INFINITY;
+        for _ in 0..turns {
+            let begun = now();
+            for _ in 0..times {
+                evaluate_into(opened, wi, wo, on, &mut values).map_err(said)?;
+            }
+            least = least.min(now() - begun);
+        }
+        Ok(least)
     }
 
     /// The curve in the plane of incidence: the angle, the value and a flag for each point, see [`curve`].

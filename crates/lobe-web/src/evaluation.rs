@@ -34,6 +34,22 @@ pub fn backends() -> Vec<&'static str> {
 /// # Errors
 /// If the lengths of `wi` and `wo` differ, or are not multiples of three.
 pub fn evaluate(opened: &Opened, wi: &[f32], wo: &[f32], on: Evaluator) -> Result<Vec<f32>, String> {
+    let mut values = Vec::new();
+    evaluate_into(opened, wi, wo, on, &mut values)?;
+    Ok(values)
+}
+
+/// [`evaluate`] into a vector that may be used again; it is given the right length.
+///
+/// # Errors
+/// As for [`evaluate`].
+pub fn evaluate_into(
+    opened: &Opened,
+    wi: &[f32],
+    wo: &[f32],
+    on: Evaluator,
+    values: &mut Vec<f32>,
+) -> Result<(), String> {
     let (vectors_in, rest) = wi.as_chunks::<3>();
     let (vectors_out, rest_out) = wo.as_chunks::<3>();
     if wi.len() != wo.len() || !rest.is_empty() || !rest_out.is_empty() {
@@ -44,9 +60,9 @@ pub fn evaluate(opened: &Opened, wi: &[f32], wo: &[f32], on: Evaluator) -> Resul
         ));
     }
     let material = opened.subject.material();
-    let mut values = vec![0.0; vectors_in.len() * material.channel_count()];
-    material.eval_batch_on(on.0, Directions::from(vectors_in), Directions::from(vectors_out), &mut values);
-    Ok(values)
+    values.resize(vectors_in.len() * material.channel_count(), 0.0);
+    material.eval_batch_on(on.0, Directions::from(vectors_in), Directions::from(vectors_out), values);
+    Ok(())
 }
 
 #[cfg(test)]

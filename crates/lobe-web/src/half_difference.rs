@@ -7,7 +7,7 @@ use lobe::{Scatter, Side};
 use lobe_plot::Scale;
 use serde::Serialize;
 
-use crate::hemisphere::false_colours;
+use crate::hemisphere::{GRAZING, false_colours};
 use crate::request::Showing;
 use crate::{Map, Opened, Request};
 
@@ -78,10 +78,10 @@ pub fn half_difference(opened: &Opened, request: &Request, size: usize) -> Resul
     let blocks: Vec<bool> = (0..coarse * coarse).map(is_measured).collect();
     let of_block = |at: usize| u8::from(blocks[at / size / STEP * coarse + at % size / STEP]);
     let measured: Vec<u8> = (0..size * size).map(of_block).collect();
-    // Values at grazing angles that were not measured may be larger than all others.
+    // Values at grazing angles, or that were not measured, may be larger than all others.
     let any = measured.contains(&1);
-    let shown = values.iter().zip(&measured).filter(|(_, is)| **is == 1 || !any);
-    let scale = Scale::around(shown.map(|(f, _)| f64::from(*f)), *scaling);
+    let decides = |at: &usize| (measured[*at] == 1 || !any) && directions(*at)[0][2].abs() > f64::from(GRAZING);
+    let scale = Scale::around((0..size * size).filter(decides).map(|at| f64::from(values[at])), *scaling);
     let rgba = false_colours(&values, &scale, |at| if measured[at] == 1 { 255 } else { 120 });
     Ok(Map { size, values, rgba, range: [scale.low, scale.high], measured, marks: [[0.0; 2]; 2] })
 }

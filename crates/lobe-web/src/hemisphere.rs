@@ -188,6 +188,9 @@ pub(crate) fn places(Showing { view, scatter, .. }: &Showing, size: usize) -> Ve
     (0..size * size).filter_map(place).collect()
 }
 
+/// The cosine of the polar angle, 86 degrees, beyond which values do not decide what the others look like.
+pub(crate) const GRAZING: f32 = 0.07;
+
 /// The number of pairs that are evaluated at once.
 const AT_ONCE: usize = 2048;
 

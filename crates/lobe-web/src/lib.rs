@@ -27,7 +27,7 @@ mod surface;
 
 pub use comparison::{Compared, compare, difference_map};
 pub use converted::{Converted, Target, converted, targets};
-pub use evaluation::{Evaluator, backends, evaluate};
+pub use evaluation::{Evaluator, backends, evaluate, evaluate_into};
 pub use facts::{Facts, Finding, facts, findings};
 pub use figures::{CURVE_ROW, Spectrum, albedo_rows, curve, figure, spectra, table};
 pub use half_difference::{HalfProbe, half_difference, half_probe};

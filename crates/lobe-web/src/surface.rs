@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use lobe::{Scatter, Side};
 use lobe_plot::{Scale, Scaling, incident};
 
-use crate::hemisphere::{Place, each};
+use crate::hemisphere::{GRAZING, Place, each};
 use crate::{Opened, Request};
 
 /// Numbers per vertex of [`surface`]: x, y, z and the value.
@@ -57,15 +57,18 @@ pub fn surface(
     let mut values = vec![0.0_f32; places.len()];
     let channels = opened.subject.material().channel_count();
     each(opened, wi.map(|c| c as f32), &places, channels, |at, texel| values[at] = view.quantity.reduce(texel));
+    // Near the horizon, values may be larger than all others; they end at the sphere of the largest one elsewhere.
+    let seen =
+        || places.iter().zip(&values).filter(|(place, _)| place.wo[2].abs() > GRAZING).map(|(_, f)| f64::from(*f));
     let scale = match showing.scaling {
         Scaling::Log => {
-            let scale = Scale::around(values.iter().map(|f| f64::from(*f)), Scaling::Log);
+            let scale = Scale::around(seen(), Scaling::Log);
             // Four decades show the shape of a lobe; with more, it would look like a ball.
             Scale { low: scale.low.max(scale.high * 1e-4), ..scale }
         }
         Scaling::Linear => {
-            let most = values.iter().copied().filter(|f| f.is_finite()).fold(0.0, f32::max);
-            Scale { scaling: Scaling::Linear, low: 0.0, high: f64::from(most).max(1e-30) }
+            let most = seen().filter(|f| f.is_finite()).fold(0.0, f64::max);
+            Scale { scaling: Scaling::Linear, low: 0.0, high: most.max(1e-30) }
         }
     };
     let mut out = Vec::with_capacity(SURFACE_ROW * places.len());

@@ -16,6 +16,7 @@ const [simd, scalar] = [await load(process.env.LOBE_WEB_MODULE), await load(proc
 const { wi, wo } = rounded(pairs(1 << 14, 3));
 const WARM = 1500;
 const TURNS = 25;
+const TIMES = 4;
 
 /** Files whose names are these, and small enough. */
 const named = /^(gold|ceramic|tissue|acrylic|vinyl|.*\.(binary|bsdf|xml))/;
@@ -30,28 +31,25 @@ for (const { name, file } of [...files(), ...measured]) {
     let contenders;
     try {
         contenders = [
-            { what: "simd128", run: ((material) => () => simd.eval(material, wi, wo, "simd128", true))(open(simd)) },
-            { what: "scalar backend of the same module", run: ((material) => () => simd.eval(material, wi, wo, "scalar", true))(open(simd)) },
-            { what: "scalar module", run: ((material) => () => scalar.eval(material, wi, wo, "scalar", true))(open(scalar)) },
+            { what: "simd128", explorer: simd, backend: "simd128", material: open(simd) },
+            { what: "scalar backend of the same module", explorer: simd, backend: "scalar", material: open(simd) },
+            { what: "scalar module", explorer: scalar, backend: "scalar", material: open(scalar) },
         ];
     } catch {
         continue;
     }
     // Engines begin with code that was compiled in a hurry.
-    const answers = contenders.map(({ run }) => {
+    const answers = contenders.map(({ explorer, backend, material }) => {
         const begun = performance.now();
-        let answer = run();
-        while (performance.now() - begun < WARM) answer = run();
-        return answer;
+        while (performance.now() - begun < WARM) explorer.time(material, wi, wo, backend, true, 1, 1);
+        return explorer.eval(material, wi, wo, backend, true);
     });
     if (answers.some((answer) => differing(answer, answers[0]) > 0)) throw new Error(`${name}: the values differ`);
     const least = contenders.map(() => Infinity);
     // The shortest of interleaved turns.
     for (let turn = 0; turn < TURNS; turn++) {
-        contenders.forEach(({ run }, at) => {
-            const begun = performance.now();
-            run();
-            least[at] = Math.min(least[at], performance.now() - begun);
+        contenders.forEach(({ explorer, backend, material }, at) => {
+            least[at] = Math.min(least[at], explorer.time(material, wi, wo, backend, true, TIMES, 1) / TIMES);
         });
     }
     const ns = least.map((time) => (1e6 * time) / (wi.length / 3));
