@@ -56,7 +56,7 @@ impl Film {
         // Both parts are delayed by the reflections within the film.
         let delay = all_s.conjugate().times(all_p);
         let mixed = delay.scaled((ts * tp / delay.norm()).sqrt());
-        (mirrored, Elements { a: 0.5 * (ts + tp), b: 0.5 * (ts - tp), c: mixed.re, s: mixed.im })
+        (mirrored, Elements { a: 0.5 * (ts + tp), b: 0.5 * (ts - tp), c: mixed.re, s: -mixed.im })
     }
 }
 

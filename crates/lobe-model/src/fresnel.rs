@@ -2,7 +2,8 @@
 //!
 //! The time dependence is `exp(-i omega t)`, so an absorbing medium has the index `n + i k` with `k > 0`. The x axis of
 //! the Stokes frames is the normal of the plane of incidence, before and after; see M. Born and E. Wolf, *Principles of
-//! optics*, 1.5 and 14.2 (7th edition).
+//! optics*, 1.5 and 14.2 (7th edition). S3 is positive for right circular light, whose field turns clockwise as seen by
+//! the receiver: with y across x and the direction in which light travels, it is `2 Im(E_x conj(E_y))`.
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +75,7 @@ impl Elements {
     pub(crate) fn of(perpendicular: Complex, parallel: Complex) -> Self {
         let (rs, rp) = (perpendicular.norm(), parallel.norm());
         let mixed = perpendicular.times(parallel.conjugate());
-        Elements { a: 0.5 * (rs + rp), b: 0.5 * (rs - rp), c: mixed.re, s: mixed.im }
+        Elements { a: 0.5 * (rs + rp), b: 0.5 * (rs - rp), c: mixed.re, s: -mixed.im }
     }
 }
 
@@ -133,7 +134,9 @@ mod tests {
         let Elements { a, b, c, s } = at(low);
         let once = |[s0, s1, s2, s3]: [f64; 4]| [a * s0 + b * s1, b * s0 + a * s1, c * s2 + s * s3, c * s3 - s * s2];
         let light = once(once([1.0, 0.0, 1.0, 0.0]));
-        assert!((light[3].abs() - 1.0).abs() < 1e-9 && light[2].abs() < 1e-9 && light[1].abs() < 1e-9, "{light:?}");
+        // The part across the plane of incidence, along x, is delayed more (Born and Wolf, 1.5.4), by a quarter of a
+        // wave, so the field turns from y to x, clockwise as seen by the receiver: right circular light.
+        assert!((light[3] - 1.0).abs() < 1e-9 && light[2].abs() < 1e-9 && light[1].abs() < 1e-9, "{light:?}");
         assert!((light[0] - 1.0).abs() < 1e-12, "nothing is lost");
     }
 

@@ -177,7 +177,7 @@ impl<S: Channels> Delta<S> {
             }
             Delta::Retarder { angle, retardance } => {
                 let (sin, cos) = libm::sincosf(*retardance);
-                let elements = [S::ZERO, S::ONE.map(|_| cos), S::ONE.map(|_| -sin)];
+                let elements = [S::ZERO, S::ONE.map(|_| cos), S::ONE.map(|_| sin)];
                 straight(wo, *angle, S::ONE, elements, choice)
             }
             Delta::Film { table, behind, tint } => {
