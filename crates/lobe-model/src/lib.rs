@@ -41,6 +41,6 @@ pub use mix::Mix;
 pub use model::Model;
 pub use oren_nayar::OrenNayar;
 pub use phong::Phong;
-pub use polarised::RoughMirrors;
+pub use polarised::{RoughCoat, RoughMirrors, base_under};
 pub use surface::{Rgb, Surface, is_isotropic};
 pub use ward::Ward;
