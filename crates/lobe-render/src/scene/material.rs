@@ -15,6 +15,7 @@ use super::node::{Node, SceneError};
 use crate::channels::Channels;
 use crate::shader::{Behind, BsdfShader, Delta, DeltaShader, Lambert, RoughFilm, RoughMetal, Shader, Together};
 use crate::shader::{MaterialError, from_document_in, open_sheet_in};
+use crate::shader::{RoughPlastic, Surface};
 use crate::transport::Transport;
 
 const MODELS: &str =
@@ -225,6 +226,17 @@ fn model_named<T: Transport>(
             let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
             let (albedo, ggx) = (share("albedo")?, Ggx { alpha: alpha(node)? });
             let eta = index.unwrap_or(1.5);
+            let coat = Coat::of(node)?;
+            if T::POLARISED || coat.is_some() {
+                let surface = match coat {
+                    Some(coat) => Surface::Film(coat.table(reading, &Under::Glass(eta))),
+                    None => Surface::Bare(eta),
+                };
+                let plastic = RoughPlastic { ggx, surface, albedo, channels: channels(reading) };
+                let isotropic = ggx.alpha[0] == ggx.alpha[1];
+                let shader = BsdfShader::<T>::model_in(basis, plastic, isotropic, backend);
+                return Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?));
+            }
             let base = |three| lobe_model::Lambert { albedo: of(&albedo, three) };
             modelled(node, reading, |three| Coated { base: base(three), ggx, eta })
         }

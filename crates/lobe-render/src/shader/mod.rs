@@ -10,6 +10,7 @@ mod film;
 mod lambert;
 mod models;
 mod open;
+mod plastic;
 
 use std::fmt::Debug;
 
@@ -24,6 +25,7 @@ pub use open::{
     MaterialError, from_document, from_document_in, open, open_sheet, open_sheet_in, open_sheet_with_progress,
     open_with,
 };
+pub(crate) use plastic::{RoughPlastic, Surface};
 
 use crate::transport::{Rgb, Transport, TransportMode};
 
