@@ -191,6 +191,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         AnyScene::Bands32(scene) => run_scene(args, begun, output, scene),
         AnyScene::StokesRgb(scene) => run_scene(args, begun, output, scene),
         AnyScene::Stokes16(scene) => run_scene(args, begun, output, scene),
+        AnyScene::EnergyRgb(scene) => run_scene(args, begun, output, scene),
+        AnyScene::Energy16(scene) => run_scene(args, begun, output, scene),
     }
 }
 
@@ -209,7 +211,7 @@ fn run_scene<T: Transport>(
     mut output: Output<'_>,
     scene: Scene<T>,
 ) -> Result<(), Failure> {
-    output.shown = args.show.shown(&args.output, Kind::of(&args.output)?, T::POLARISED)?;
+    output.shown = args.show.shown(&args.output, Kind::of(&args.output)?, T::SHOWS_POLARISATION)?;
     output.check(&scene.files)?;
     let draft = Draft::from_environment()?;
     let range = args.samples_range.as_ref().map(|range| draft.range(range));
@@ -337,7 +339,10 @@ impl Show {
         match self {
             Show::Colour => Ok(Shown::Colour),
             _ if kind == Kind::Exr => refuse("an EXR file, which has all quantities as channels", ".png"),
-            _ if !is_polarised => refuse("light that is not polarised", "a scene with `stokes = true` in [spectrum]"),
+            _ if !is_polarised => refuse(
+                "a picture without polarisation",
+                "a scene with `stokes = true` in [spectrum] and no other `sensor`",
+            ),
             Show::Dolp => Ok(Shown::Degree),
             Show::Aolp => Ok(Shown::Angle),
         }

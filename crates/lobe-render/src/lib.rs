@@ -57,7 +57,7 @@ pub use settings::{Progress, RenderError, Settings};
 pub use stats::{DEPTHS, Shading, Stats};
 pub use steps::{Step, render_until};
 pub use transport::{
-    BandConversion, Bands, Components, Conversion, Mueller, Polarisation, RadianceSums, Rgb, Stokes, Stokes16,
-    StokesConversion, StokesRgb, Transport, TransportMode,
+    BandConversion, Bands, Bounce, Components, Conversion, Energy16, EnergyRgb, Mueller, Polarisation, RadianceSums,
+    Rgb, Rows, Stokes, Stokes16, StokesConversion, StokesRgb, Transport, TransportMode,
 };
 pub use world::{Shape, World, WorldBuilder, WorldError};

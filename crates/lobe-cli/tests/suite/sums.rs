@@ -84,6 +84,24 @@ fn sums_are_not_lost() {
     }
 }
 
+/// Pictures of wavelengths and of polarised light continue as others do.
+#[test]
+fn sums_of_spectra_and_of_polarised_light_are_not_lost() {
+    let files = Files::new();
+    for (name, spectrum) in
+        [("bands", "bands = 8"), ("stokes", "stokes = true"), ("energy", "stokes = true\nsensor = \"energy\"")]
+    {
+        let scene = files.write(&format!("{name}.toml"), &format!("{SCENE}\n[spectrum]\n{spectrum}\n"));
+        let [kept, whole] = ["kept", "whole"].map(|kind| files.path(&format!("{name}-{kind}.exr")));
+        let render = ["render", text(&scene), "--strict", "-o"];
+        printed(&[&render[..], &[text(&kept), "--keep-sums"]].concat());
+        printed(&[&render[..], &[text(&kept), "--resume", "--samples", "9"]].concat());
+        printed(&[&render[..], &[text(&whole), "--samples", "9"]].concat());
+        let read = |path: &PathBuf| std::fs::read(path).expect("a picture");
+        assert!(read(&kept) == read(&whole), "{name}");
+    }
+}
+
 fn lobe_of(backend: &str) -> bool {
     let available = ::lobe::Backend::available();
     available.iter().any(|found| found.name() == backend)

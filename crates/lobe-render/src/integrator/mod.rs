@@ -13,7 +13,7 @@ use crate::photon::LightMap;
 use crate::scene::node::{Node, SceneError};
 use crate::shader::Backend;
 use crate::stats::Stats;
-use crate::transport::{Bands, Rgb, Stokes16, StokesRgb, Transport};
+use crate::transport::{Bands, Energy16, EnergyRgb, Rgb, Stokes16, StokesRgb, Transport};
 use crate::wavefront::Wavefront;
 use crate::world::World;
 
@@ -52,7 +52,7 @@ macro_rules! integrators {
 /// Compiles integrators for the transports of wavelengths and of polarised light, which only few of them need.
 macro_rules! spectral {
     ($($Name:ident),+) => {
-        $(integrators!(@ $Name: Bands<8>, Bands<16>, Bands<32>, StokesRgb, Stokes16);)+
+        $(integrators!(@ $Name: Bands<8>, Bands<16>, Bands<32>, StokesRgb, Stokes16, EnergyRgb, Energy16);)+
 
         /// The integrators that follow wavelengths and polarised light: their names and readers.
         pub(crate) static SPECTRAL: &[SpectralSpec] = &[$(SpectralSpec {
@@ -67,7 +67,13 @@ spectral!(Path);
 
 /// An integrator that is compiled for every transport.
 pub(crate) trait AnyTransport:
-    Integrator<Bands<8>> + Integrator<Bands<16>> + Integrator<Bands<32>> + Integrator<StokesRgb> + Integrator<Stokes16>
+    Integrator<Bands<8>>
+    + Integrator<Bands<16>>
+    + Integrator<Bands<32>>
+    + Integrator<StokesRgb>
+    + Integrator<Stokes16>
+    + Integrator<EnergyRgb>
+    + Integrator<Energy16>
 {
 }
 
@@ -77,6 +83,8 @@ impl<I> AnyTransport for I where
         + Integrator<Bands<32>>
         + Integrator<StokesRgb>
         + Integrator<Stokes16>
+        + Integrator<EnergyRgb>
+        + Integrator<Energy16>
 {
 }
 

@@ -80,7 +80,7 @@ fn encode<T: Transport>(film: &Film<T>, basis: &T::Basis, meta: &Meta, partial: 
             channels.push(AnyChannel::new(name.as_str(), FlatSamples::F32(values)));
         }
     }
-    if T::POLARISED {
+    if T::SHOWS_POLARISATION {
         for (k, name) in ["dolp.Y", "aolp.Y"].into_iter().enumerate() {
             let of = |pixel| T::linear_polarisation(basis, film.radiance(pixel)).map_or(0.0, |found| found[k]);
             channels.push(AnyChannel::new(name, FlatSamples::F32((0..pixels.len()).map(of).collect())));

@@ -18,7 +18,7 @@ use sha2::{Digest, Sha256};
 use crate::camera::{Camera, Filter};
 use crate::integrator::{self, Integrator};
 use crate::shader::Backend;
-use crate::transport::{Bands, Rgb, Stokes16, StokesRgb, Transport};
+use crate::transport::{Bands, Energy16, EnergyRgb, Rgb, Stokes16, StokesRgb, Transport};
 use crate::world::{World, WorldBuilder};
 use node::{Node, Source};
 
@@ -182,6 +182,10 @@ pub enum AnyScene {
     StokesRgb(Scene<StokesRgb>),
     /// Polarised light of up to 16 wavelengths.
     Stokes16(Scene<Stokes16>),
+    /// The energy of polarised light in linear sRGB.
+    EnergyRgb(Scene<EnergyRgb>),
+    /// The energy of polarised light of up to 16 wavelengths.
+    Energy16(Scene<Energy16>),
 }
 
 impl AnyScene {
@@ -229,6 +233,14 @@ impl AnyScene {
         };
         let (any, samples) = spectrum::integrator(&root, named)?;
         Ok(match (wanted.bands, wanted.stokes) {
+            (None, _) if wanted.counts_energy => {
+                let any: Arc<dyn Integrator<EnergyRgb>> = any;
+                AnyScene::EnergyRgb(read_in((), (any, samples), &root, &source, on, progress)?)
+            }
+            (Some(bands), true) if wanted.counts_energy => {
+                let any: Arc<dyn Integrator<Energy16>> = any;
+                AnyScene::Energy16(read_in(bands, (any, samples), &root, &source, on, progress)?)
+            }
             (None, _) => {
                 let any: Arc<dyn Integrator<StokesRgb>> = any;
                 AnyScene::StokesRgb(read_in((), (any, samples), &root, &source, on, progress)?)

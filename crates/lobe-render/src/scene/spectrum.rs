@@ -16,6 +16,8 @@ pub(super) struct Wanted {
     pub bands: Option<Arc<Bands>>,
     /// `true` if light is polarised.
     pub stokes: bool,
+    /// `true` if the film sums the energy of polarised light alone.
+    pub counts_energy: bool,
 }
 
 /// The largest number of wavelengths of polarised light.
@@ -25,6 +27,14 @@ const POLARISED: usize = 16;
 pub(super) fn read(root: &Node<'_, '_>) -> Result<Option<Wanted>, SceneError> {
     let Some(node) = root.child("spectrum")? else { return Ok(None) };
     let stokes = node.flag("stokes")?;
+    let counts_energy = match node.text("sensor")? {
+        None | Some("stokes") => false,
+        Some("energy") => true,
+        Some(found) => return Err(node.error("sensor", format!("found `{found}`; expected stokes or energy"))),
+    };
+    if node.has("sensor") && !stokes {
+        return Err(node.error("sensor", "found a sensor of unpolarised light; expected `stokes = true` with it"));
+    }
     let count = node.whole("bands", 2..=32)?;
     let wavelengths = node.numbers("wavelengths", "wavelengths in nm, such as [450, 550, 650]")?;
     let (key, bands) = match (count, wavelengths) {
@@ -40,7 +50,7 @@ pub(super) fn read(root: &Node<'_, '_>) -> Result<Option<Wanted>, SceneError> {
         return Err(node.error(key, message));
     }
     node.finish()?;
-    Ok(Some(Wanted { bands: bands.map(Arc::new), stokes }))
+    Ok(Some(Wanted { bands: bands.map(Arc::new), stokes, counts_energy }))
 }
 
 /// The integrator and the samples per pixel.

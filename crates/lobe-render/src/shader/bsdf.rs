@@ -69,11 +69,17 @@ impl<T: Transport> BsdfShader<T> {
         Ok(BsdfShader::new_in(basis, Arc::new(sampled), backend))
     }
 
-    /// The matrices of pairs of directions, each times the cosine of `wi` and a factor.
-    fn matrices(&self, [light, viewer]: [&[Vec3]; 2], factor: impl Fn(usize) -> f32, out: &mut [T::Scattering]) {
-        let mut matrices = vec![0.0; 16 * self.conversion.count() * light.len()];
-        self.bsdf.mueller_batch(self.backend, light.into(), viewer.into(), &mut matrices);
-        self.conversion.convert_matrices(&matrices, out);
+    /// The matrices of pairs of directions, each times a factor.
+    fn matrices(
+        &self,
+        [light, viewer]: [&[Vec3]; 2],
+        factor: impl Fn(usize) -> f32,
+        out: &mut [T::Scattering],
+        scratch: &mut Scratch,
+    ) {
+        let matrices = scratch.values(16 * self.conversion.count() * light.len());
+        self.bsdf.mueller_batch(self.backend, light.into(), viewer.into(), matrices);
+        self.conversion.convert_matrices(matrices, out);
         out.iter_mut().enumerate().for_each(|(at, matrix)| *matrix = T::scale(*matrix, factor(at)));
     }
 }
@@ -144,7 +150,7 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
         };
         if self.is_polarised && mode == TransportMode::Radiance {
             self.bsdf.pdf_batch(self.backend, given(mode), light, viewer, pdf);
-            return self.matrices([light, viewer], |at| wi[at][2].abs(), f);
+            return self.matrices([light, viewer], |at| wi[at][2].abs(), f, scratch);
         }
         if let Some(values) = self.conversion.in_place(f) {
             self.bsdf.eval_pdf_batch(self.backend, given(mode), light, viewer, values, pdf);
@@ -167,6 +173,12 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
     /// Separately measured mirrors are sampled too: their density is infinite.
     fn sample(&self, mode: TransportMode, wo: &[Vec3], u: &[[f32; 2]], out: Sampled<'_, T>, scratch: &mut Scratch) {
         let Sampled { wi, weight, pdf } = out;
+        let is_polarised = self.is_polarised && mode == TransportMode::Radiance;
+        if is_polarised && !self.lobes.delta {
+            self.bsdf.draw_batch(self.backend, wo, u, wi, pdf);
+            let factor = |at: usize| if pdf[at] > 0.0 { wi[at][2].abs() / pdf[at] } else { 0.0 };
+            return self.matrices([wi, wo], factor, weight, scratch);
+        }
         if let Some(values) = self.conversion.in_place(weight) {
             let sampled = lobe::Sampled { directions: wi, weights: values, pdfs: pdf };
             self.bsdf.sample_batch(self.backend, given(mode), wo, u, sampled);
@@ -176,9 +188,10 @@ impl<T: Transport> Shader<T> for BsdfShader<T> {
             self.bsdf.sample_batch(self.backend, given(mode), wo, u, sampled);
             self.conversion.convert(values, weight);
         }
-        if self.is_polarised && mode == TransportMode::Radiance {
+        if is_polarised {
             let mut matrices = vec![T::ABSORBED; wo.len()];
-            self.matrices([wi, wo], |at| wi[at][2].abs() / pdf[at].max(f32::MIN_POSITIVE), &mut matrices);
+            let factor = |at: usize| wi[at][2].abs() / pdf[at].max(f32::MIN_POSITIVE);
+            self.matrices([wi, wo], factor, &mut matrices, scratch);
             for ((weight, matrix), pdf) in weight.iter_mut().zip(matrices).zip(&*pdf) {
                 // A separately measured mirror has no matrix.
                 if *pdf > 0.0 && pdf.is_finite() {

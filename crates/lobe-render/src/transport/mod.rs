@@ -1,8 +1,10 @@
 //! Transports: the kinds of light that travel along a path, and the direction in which it is followed.
 
 mod bands;
+mod components;
 mod mueller;
 mod rgb;
+mod rows;
 mod stokes;
 
 use std::fmt::Debug;
@@ -10,9 +12,11 @@ use std::fmt::Debug;
 use lobe_spectrum::Spectrum;
 
 pub use bands::{BandConversion, Bands};
+pub use components::Components;
 pub use mueller::Mueller;
 pub use rgb::Rgb;
-pub use stokes::{Components, Polarisation, Stokes, Stokes16, StokesConversion, StokesRgb};
+pub use rows::Rows;
+pub use stokes::{Energy16, EnergyRgb, Polarisation, Stokes, Stokes16, StokesConversion, StokesRgb};
 
 use crate::channels::Channels;
 use crate::light::LightPolarisation;
@@ -27,6 +31,17 @@ pub enum TransportMode {
     /// The path begins at a light; its throughput multiplies importance. The known direction of a material leads to the
     /// light, and shading normals need a correction (Veach 1997, section 5.3).
     Importance,
+}
+
+/// A surface that scatters light, with the directions of both parts of its path.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounce {
+    /// The axes of the frame of the surface, in the world.
+    pub frame: [Vec3; 3],
+    /// Toward the light, in the frame of the surface.
+    pub wi: Vec3,
+    /// Toward the viewer, in the frame of the surface.
+    pub wo: Vec3,
 }
 
 /// A kind of light that travels along a path: the types of radiance and throughput, and how scattering by a material is
@@ -52,6 +67,8 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
 
     /// `true` if light is polarised, so that the frames of surfaces matter.
     const POLARISED: bool = false;
+    /// `true` if films have the polarisation of light.
+    const SHOWS_POLARISATION: bool = false;
     /// The throughput at the beginning of a path.
     const START: Self::Throughput;
     /// The scattering of a material that absorbs everything.
@@ -81,15 +98,36 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
     /// Emitted light after a throughput.
     fn radiance(throughput: Self::Throughput, emitted: Self::Spectrum) -> Self::Radiance;
 
-    /// Like [`radiance`](Self::radiance), for light that may be polarised and comes from the unit direction `wi`.
+    /// Like [`radiance`](Self::radiance), for light that may be polarised and comes from a unit direction of the world.
+    #[inline]
     fn radiance_from(
         throughput: Self::Throughput,
         emitted: Self::Spectrum,
         polarisation: Option<&LightPolarisation>,
-        wi: Vec3,
+        toward: Vec3,
     ) -> Self::Radiance {
-        let _ = (polarisation, wi);
+        let _ = (polarisation, toward);
         Self::radiance(throughput, emitted)
+    }
+
+    /// Like [`radiance_from`](Self::radiance_from), for light that a surface scatters into a path.
+    #[inline]
+    fn scattered_radiance(
+        throughput: &Self::Throughput,
+        scattering: &Self::Scattering,
+        bounce: &Bounce,
+        emitted: Self::Spectrum,
+        polarisation: Option<&LightPolarisation>,
+        toward: Vec3,
+    ) -> Self::Radiance {
+        let _ = (bounce, polarisation, toward);
+        Self::radiance(Self::apply(*throughput, *scattering), emitted)
+    }
+
+    /// Radiance of which no channel is above a limit. NaN stays NaN, to be counted.
+    #[inline]
+    fn limited(radiance: Self::Radiance, limit: f32) -> Self::Radiance {
+        radiance.map(|value| if value > limit { limit } else { value })
     }
 
     /// Radiance with this colour in linear sRGB.
@@ -139,27 +177,29 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
     /// them.
     fn lone(throughput: &Self::Throughput, u: f32) -> (usize, f32);
 
-    /// The scattering of a mirror, of glass or of another surface with exact directions, for a ray back along `wo`.
-    fn delta(
+    /// The throughput after a surface that scatters light. Only polarised light depends on its frame.
+    #[inline]
+    fn bounce(throughput: &Self::Throughput, scattering: &Self::Scattering, bounce: &Bounce) -> Self::Throughput {
+        let _ = bounce;
+        Self::apply(*throughput, *scattering)
+    }
+
+    /// The throughput after a mirror, glass or another surface with exact directions.
+    #[inline]
+    fn bounce_exactly(
+        throughput: Self::Throughput,
         weight: Self::Spectrum,
         polarisation: Option<&Polarisation<Self::Spectrum>>,
-        wi: Vec3,
-        wo: Vec3,
-    ) -> Self::Scattering {
-        let _ = (polarisation, wi, wo);
-        Self::scattering(weight)
+        bounce: &Bounce,
+    ) -> Self::Throughput {
+        let _ = (polarisation, bounce);
+        Self::apply(throughput, Self::scattering(weight))
     }
 
     /// The throughput of a path that begins along a ray at the camera, whose right is given.
     fn at_camera(basis: &Self::Basis, right: Vec3, direction: Vec3) -> Self::Throughput {
         let _ = (basis, right, direction);
         Self::START
-    }
-
-    /// Converts scattering for directions in the frame of a material to directions in the world.
-    fn in_world(scattering: Self::Scattering, frame: &[Vec3; 3], wi: Vec3, wo: Vec3) -> Self::Scattering {
-        let _ = (frame, wi, wo);
-        scattering
     }
 }
 

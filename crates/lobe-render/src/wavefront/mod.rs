@@ -130,14 +130,10 @@ fn power_heuristic(pdf: f32, other: f32) -> f32 {
 
 /// Adds light that arrives at the slot of a path, no channel of it more than `limit`.
 fn accumulate<T: Transport>(slot: &mut PathSlot<T>, radiance: T::Radiance, limit: f32) {
+    let radiance = T::limited(radiance, limit);
     for (sum, value) in slot.sample.radiance.as_mut().iter_mut().zip(radiance.as_ref()) {
-        *sum += clamped(*value, limit);
+        *sum += value;
     }
-}
-
-/// Written so that NaN stays NaN, to be counted.
-fn clamped(value: f32, limit: f32) -> f32 {
-    if value > limit { limit } else { value }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use lobe_trace::RayClass;
 use super::material_queue::MaterialHits;
 use super::rays::Ray;
 use super::shadow::ShadowRay;
-use super::{Wavefront, clamped, power_heuristic};
+use super::{Wavefront, power_heuristic};
 use crate::channels::Channels;
 use crate::clock::Instant;
 use crate::columns::{Column, RAYS, ZEROS, ensure_len, store, vector};
@@ -17,7 +17,7 @@ use crate::interaction::Interactions;
 use crate::light::Lights;
 use crate::random::{Dimensions, Numbers};
 use crate::shader::Evaluated;
-use crate::transport::{Transport, TransportMode};
+use crate::transport::{Bounce, Transport, TransportMode};
 use crate::vec3::Vec3;
 use crate::vectors::{add, dot, scale, select, sub};
 
@@ -193,24 +193,20 @@ impl<T: Transport> Wavefront<'_, T> {
         let queue = &mut self.shadow.queue;
         queue.clear();
         queue.extend(reached.len(), |out| {
-            for (pair, ((&hit, &f), &pdf)) in reached.iter().zip(f).zip(pdf).enumerate() {
+            for (pair, ((&hit, f), &pdf)) in reached.iter().zip(f).zip(pdf).enumerate() {
                 let (sample, at) = (&light_samples[hit as usize / RAYS], hit as usize % RAYS);
                 let arrived = &self.arrived[hit as usize];
                 let share = if event.weighted { power_heuristic(sample.pdf[at], pdf) } else { 1.0 };
-                let mut f = f;
-                if T::POLARISED {
+                let radiance = if T::POLARISED {
                     let hit = hit as usize;
-                    f = T::in_world(f, &self.hits.frame(hit), wi[pair], self.hits.wo()[hit]);
-                }
-                let throughput = T::apply(arrived.throughput, f);
-                let radiance = match T::POLARISED {
-                    true => {
-                        let polarisation = self.world.lights.polarisation(sample.light[at] as usize);
-                        T::radiance_from(throughput, sample.emitted(at), polarisation, vector(&sample.direction, at))
-                    }
-                    false => T::radiance(throughput, sample.emitted(at)),
+                    let bounce = Bounce { frame: self.hits.frame(hit), wi: wi[pair], wo: self.hits.wo()[hit] };
+                    let polarisation = self.world.lights.polarisation(sample.light[at] as usize);
+                    let toward = vector(&sample.direction, at);
+                    T::scattered_radiance(&arrived.throughput, f, &bounce, sample.emitted(at), polarisation, toward)
+                } else {
+                    T::radiance(T::apply(arrived.throughput, *f), sample.emitted(at))
                 };
-                let radiance = radiance.map(|value| clamped(value * share, event.limit));
+                let radiance = T::limited(radiance.map(|value| value * share), event.limit);
                 // NaN must continue, to be counted.
                 let some = radiance.as_ref().iter().fold(false, |some, x| some | (*x != 0.0));
                 let ray = Ray { origin: vector(&sample.origin, at), direction: vector(&sample.direction, at) };

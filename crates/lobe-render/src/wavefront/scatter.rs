@@ -12,7 +12,7 @@ use crate::columns::RAYS;
 use crate::interaction::Interactions;
 use crate::random::Dimensions;
 use crate::shader::{Choice, Delta, DeltaSample, DeltaSamples, Sampled};
-use crate::transport::{Transport, TransportMode};
+use crate::transport::{Bounce, Transport, TransportMode};
 use crate::vec3::Vec3;
 use crate::vectors::{dot, scale, sub};
 
@@ -127,11 +127,12 @@ impl<T: Transport> Wavefront<'_, T> {
 
     fn push_delta(&mut self, hit: usize, sample: DeltaSample<T::Spectrum>, scatter: Scatter, least: f32) {
         let PathState { slot, throughput, .. } = self.arrived[hit];
-        let mut scattering = T::delta(sample.weight, sample.polarisation.as_ref(), sample.wi, self.hits.wo()[hit]);
-        if T::POLARISED {
-            scattering = T::in_world(scattering, &self.hits.frame(hit), sample.wi, self.hits.wo()[hit]);
-        }
-        let mut throughput = T::apply(throughput, scattering);
+        let mut throughput = if T::POLARISED {
+            let bounce = Bounce { frame: self.hits.frame(hit), wi: sample.wi, wo: self.hits.wo()[hit] };
+            T::bounce_exactly(throughput, sample.weight, sample.polarisation.as_ref(), &bounce)
+        } else {
+            T::apply(throughput, T::scattering(sample.weight))
+        };
         // NaN is not followed either.
         let carries = T::magnitude(&throughput) > least;
         if !carries {
@@ -181,11 +182,12 @@ impl<T: Transport> Wavefront<'_, T> {
                 }
                 for hit in group.hits.clone() {
                     let (arrived, ray) = (&arrived[hit], &rays[hit / RAYS]);
-                    let mut scattering = weight[hit];
-                    if T::POLARISED {
-                        scattering = T::in_world(scattering, &hits.frame(hit), wi[hit], hits.wo()[hit]);
-                    }
-                    let mut throughput = T::apply(arrived.throughput, scattering);
+                    let mut throughput = if T::POLARISED {
+                        let bounce = Bounce { frame: hits.frame(hit), wi: wi[hit], wo: hits.wo()[hit] };
+                        T::bounce(&arrived.throughput, &weight[hit], &bounce)
+                    } else {
+                        T::apply(arrived.throughput, weight[hit])
+                    };
                     if mode == TransportMode::Importance {
                         throughput = T::weigh(throughput, adjoint_correction(hits, hit, wi[hit]));
                     }

@@ -272,7 +272,9 @@ fn a_quarter_wave_plate_makes_circular_light() {
     let quarter = sheet("quarter", "model = \"retarder\"\nangle = 0\nretardance = 90", 1.0);
     let polariser = sheet("polariser", "model = \"polariser\"\nangle = 45", 0.0);
     let [s0, s1, s2, s3] = seen(&sheets(&(quarter + &polariser)));
-    assert!((s0 - 0.5).abs() < 1e-5 && (s3.abs() - 0.5).abs() < 1e-5, "{s0} {s1} {s2} {s3}");
+    // The upward part of light along the diagonal is delayed by a quarter of a wave, so the field turns from the right to
+    // the top, counterclockwise: left circular light.
+    assert!((s0 - 0.5).abs() < 1e-5 && (s3 + 0.5).abs() < 1e-5, "{s0} {s1} {s2} {s3}");
     assert!(s1.abs() < 1e-5 && s2.abs() < 1e-5, "{s0} {s1} {s2} {s3}");
 }
 
@@ -322,6 +324,41 @@ fn the_degree_of_polarisation_is_at_most_one() {
 }
 
 #[test]
+fn limited_light_is_not_more_polarised_than_it_is_bright() {
+    let text = mixed("[spectrum]\nstokes = true\n").replace("samples = 8", "samples = 8\nlimit = 0.05");
+    let scene = stokes(&text, Backend::best());
+    let film = picture(&scene, &settings(&scene, 8, Backend::best()));
+    for pixel in 0..film.pixels().len() {
+        let radiance = film.radiance(pixel);
+        for channel in 0..3 {
+            let [s0, s1, s2, s3] = radiance.0.map(|component| f64::from(component[channel]));
+            let degree = (s1 * s1 + s2 * s2 + s3 * s3).sqrt();
+            assert!(degree <= s0 * (1.0 + 1e-4) + 1e-6, "{s0} {s1} {s2} {s3}");
+        }
+    }
+}
+
+#[test]
+fn a_sensor_that_counts_energy_sees_the_first_component() {
+    let whole = stokes(&mixed("[spectrum]\nstokes = true\n"), Backend::best());
+    let whole = picture(&whole, &settings(&whole, 8, Backend::best()));
+    let text = mixed("[spectrum]\nstokes = true\nsensor = \"energy\"\n");
+    let AnyScene::EnergyRgb(scene) = parse(&text, Backend::best()) else { panic!("not the energy") };
+    let energy = picture(&scene, &settings(&scene, 8, Backend::best()));
+    // The same numbers, so the same bits.
+    for (energy, whole) in energy.pixels().iter().zip(whole.pixels()) {
+        assert_eq!(energy.radiance.0[0], whole.radiance.0[0]);
+    }
+    assert_eq!(energy.pixels()[0].radiance.0.len(), 1);
+    // Crossed polarisers are dark for it, too.
+    let near = sheet("near", "model = \"polariser\"\nangle = 10", 1.0);
+    let crossed = sheets(&(near + &sheet("far", "model = \"polariser\"\nangle = 100", 0.0)));
+    let text = crossed.replace("stokes = true", "bands = 4\nstokes = true\nsensor = \"energy\"");
+    let AnyScene::Energy16(scene) = parse(&text, Backend::best()) else { panic!("not the energy") };
+    assert!(means(&picture(&scene, &settings(&scene, 4, Backend::best()))).iter().all(|mean| mean.abs() < 1e-6));
+}
+
+#[test]
 fn mistakes_are_named() {
     let world = "[material.a]\nmodel = \"lambert\"\nalbedo = 0.5\n";
     for (text, expected) in [
@@ -330,6 +367,8 @@ fn mistakes_are_named() {
         (format!("{CAMERA}[spectrum]\nwavelengths = [1500, 1600]\n"), "some from 380 to 780"),
         (format!("{CAMERA}[spectrum]\nbands = 8\nwavelengths = [500]\n"), "either `bands` or `wavelengths`"),
         (format!("{CAMERA}[spectrum]\nbands = 20\nstokes = true\n"), "at most 16"),
+        (format!("{CAMERA}[spectrum]\nbands = 8\nsensor = \"energy\"\n"), "expected `stokes = true` with it"),
+        (format!("{CAMERA}[spectrum]\nstokes = true\nsensor = \"eye\"\n"), "expected stokes or energy"),
         (format!("{CAMERA}[spectrum]\nband = 8\n"), "did you mean `bands`?"),
         (
             format!("{CAMERA}[spectrum]\n[integrator]\nkind = \"whitted\"\n"),
