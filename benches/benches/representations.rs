@@ -17,6 +17,7 @@ fn representations(criterion: &mut Criterion) {
             "tensor-tree",
             "mueller",
             "mueller-matrices",
+            "polarised-matrices",
         ],
     );
 }

@@ -7,7 +7,7 @@ use lobe::table::utia::{self, PLANE};
 use lobe::table::window::klems::{AngleBasis, KlemsMatrix};
 use lobe::table::window::tensor_tree::{Node, Rank, TensorTree};
 use lobe::table::window::{self, Block, Component};
-use lobe::table::{half_diff, mueller, scattered, spherical};
+use lobe::table::{half_diff, mueller, polarised, scattered, spherical};
 use lobe::{Channels, Scatter, specular};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -206,6 +206,27 @@ fn mueller_over(wavelengths: usize) -> mueller::Data {
     ];
     let count = 16 * knots.iter().map(Vec::len).product::<usize>();
     mueller::Data::new(knots, (0..count).map(value).collect()).expect("valid matrices")
+}
+
+/// Mueller matrices of smooth values in specular coordinates: 7 x 8 x 13, over four wavelengths.
+pub fn polarised() -> polarised::Data {
+    let knots = knots([7, 1, 8, 13]);
+    let nanometres = [450.0, 500.0, 550.0, 650.0];
+    let mut values = Vec::new();
+    for sigma in &knots[0] {
+        for theta in &knots[2] {
+            for phi in &knots[3] {
+                for nm in nanometres {
+                    for element in 0..16 {
+                        let base = (f64::from(element) + sigma + 0.5 * theta.cos() + nm / 300.0).sin();
+                        let wave = 0.3 * base + 0.15 * theta.sin() * (phi + f64::from(element)).cos();
+                        values.push(if element == 0 { 0.5 + wave } else { 0.5 * wave } as f32);
+                    }
+                }
+            }
+        }
+    }
+    polarised::Data::new(knots, nanometres.to_vec(), values).expect("valid matrices")
 }
 
 /// A sheet with the full Klems basis on both sides.

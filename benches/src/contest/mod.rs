@@ -14,6 +14,7 @@ mod representations;
 mod rgl;
 mod sampling;
 mod search;
+mod spectral;
 mod threads;
 
 use std::fmt;

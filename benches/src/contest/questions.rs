@@ -1,6 +1,8 @@
 //! All questions, in the order of the report.
 
-use super::{Contest, acos, drawn, evaluation, interpolation, large, representations, rgl, sampling, search, threads};
+use super::{
+    Contest, acos, drawn, evaluation, interpolation, large, representations, rgl, sampling, search, spectral, threads,
+};
 use crate::workload::Input;
 
 /// A question that a contest answers.
@@ -18,7 +20,7 @@ pub struct Question {
 }
 
 /// All questions, in the order of the report.
-pub const QUESTIONS: [Question; 40] = [
+pub const QUESTIONS: [Question; 43] = [
     Question { id: "acos", title: "Arc cosine, eight terms", unit: "value", least: 1, build: acos::eight_terms },
     Question {
         id: "acos-paper",
@@ -106,6 +108,20 @@ pub const QUESTIONS: [Question; 40] = [
         least: 1,
         build: evaluation::iso_strict,
     },
+    Question {
+        id: "spectral-31",
+        title: "Isotropic table of 31 wavelengths",
+        unit: "evaluation",
+        least: 1,
+        build: spectral::visible,
+    },
+    Question {
+        id: "spectral-195",
+        title: "Isotropic table of 195 wavelengths",
+        unit: "evaluation",
+        least: 1,
+        build: spectral::full,
+    },
     Question { id: "large", title: "Isotropic table of 17 MB", unit: "evaluation", least: 1 << 16, build: large::iso },
     Question {
         id: "large-aniso",
@@ -173,6 +189,13 @@ pub const QUESTIONS: [Question; 40] = [
         unit: "evaluation",
         least: 1,
         build: representations::matrices,
+    },
+    Question {
+        id: "polarised-matrices",
+        title: "Whole Mueller matrices in specular coordinates, four wavelengths",
+        unit: "evaluation",
+        least: 1,
+        build: representations::polarised,
     },
     Question {
         id: "iso-sample",

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use lobe::table::half_diff::{self, Lookup};
 use lobe::table::window::tensor_tree::Rank;
-use lobe::table::{mueller, scattered, spherical, utia, window};
+use lobe::table::{mueller, polarised, scattered, spherical, utia, window};
 use lobe::{Backend, Decode, Directions, Edges, specular};
 
 use super::{Contender, Contest, Tolerance, backends};
@@ -122,6 +122,25 @@ pub fn matrices(input: Input, count: usize) -> Contest {
     contest(
         (input, count, width, LINEAR),
         move |wi, wo| data.bound(wi, wo) + 4.0 * mueller::turned(wi, wo) < SURE,
+        Rc::new(in_f64),
+        Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
+    )
+}
+
+/// The same in specular coordinates.
+pub fn polarised(input: Input, count: usize) -> Contest {
+    let data = Rc::new(tables::polarised());
+    let edges = Edges::default();
+    let table = polarised::Matrices::new(&data, &edges).expect("a small table");
+    let width = 16 * table.wavelength_count();
+    let in_f64 = move |wi, wo, out: &mut [f64]| {
+        for (out, nm) in out.chunks_exact_mut(16).zip(data.wavelengths()) {
+            out.copy_from_slice(data.eval(&edges, wi, wo, *nm).as_flattened());
+        }
+    };
+    contest(
+        (input, count, width, LINEAR),
+        move |wi, wo| 4.0 * mueller::turned(wi, wo) < 0.1 * SURE,
         Rc::new(in_f64),
         Rc::new(move |backend, [wi, wo], out| table.eval_batch(backend, wi, wo, out)),
     )

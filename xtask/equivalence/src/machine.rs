@@ -12,8 +12,8 @@ use lobe_scalar::Scalar;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::rgl::{self, Drawn, UniformOrder, Wanted};
 use lobe_table::{
-    Directions, Given, PatchSampler, Sampled, Sampler, SamplerOptions, mueller, scattered, specular, spherical, utia,
-    window,
+    Directions, Given, PatchSampler, Sampled, Sampler, SamplerOptions, mueller, polarised, scattered, specular,
+    spherical, utia, window,
 };
 
 /// Pairs of directions.
@@ -31,6 +31,7 @@ pub(crate) trait Machine: Copy {
     fn utia(self, table: &utia::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn mueller(self, table: &mueller::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn matrices(self, table: &mueller::Matrices, pairs: Pairs<'_>, out: &mut [f32]);
+    fn polarised(self, table: &polarised::Matrices, pairs: Pairs<'_>, out: &mut [f32]);
     fn window(self, table: &window::Table, pairs: Pairs<'_>, out: &mut [f32]);
     fn rgl(self, table: &rgl::Table, pairs: Pairs<'_>, wanted: Wanted<'_>);
     fn rgl_sample(self, table: &rgl::Table, wi: Directions<'_>, u: &[[f32; 2]], drawn: Drawn<'_>);
@@ -88,6 +89,10 @@ impl Machine for Backend {
     }
 
     fn matrices(self, table: &mueller::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        table.eval_batch(self, wi, wo, out);
+    }
+
+    fn polarised(self, table: &polarised::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         table.eval_batch(self, wi, wo, out);
     }
 
@@ -175,6 +180,10 @@ impl<const N: usize> Machine for Emulated<N> {
     }
 
     fn matrices(self, table: &mueller::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
+        self.run(table.batch(wi, wo, out));
+    }
+
+    fn polarised(self, table: &polarised::Matrices, [wi, wo]: Pairs<'_>, out: &mut [f32]) {
         self.run(table.batch(wi, wo, out));
     }
 

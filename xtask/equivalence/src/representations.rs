@@ -3,14 +3,15 @@
 use std::sync::OnceLock;
 
 use lobe_benches::tables::{
-    half_difference, klems, mueller, scattered, spherical, spherical_anisotropic, tensor_tree, utia,
+    half_difference, klems, mueller, polarised, scattered, spherical, spherical_anisotropic, tensor_tree, utia,
 };
 use lobe_benches::workload::Input;
 use lobe_table::half_diff::{self, Lookup};
 use lobe_table::utia::{self, Decode};
 use lobe_table::window::tensor_tree::Rank;
-use lobe_table::{Directions, mueller, scattered, spherical, window};
+use lobe_table::{Channels, Directions, Edges, Scatter, mueller, polarised, scattered, specular, spherical, window};
 
+use super::bound::FusedBound;
 use super::machine::{Machine, Pairs};
 use super::record::{Bound, Record};
 use super::tables::{Queries, adversarial, not_unit, workload};
@@ -22,6 +23,8 @@ struct Case {
     width: usize,
     /// The bound of the difference between lanes and the exact value, or the values from which they may choose.
     reference: Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>,
+    /// `true` if directions have to be unit vectors.
+    needs_unit: bool,
 }
 
 enum Representation {
@@ -31,6 +34,7 @@ enum Representation {
     Utia(Box<utia::Table>),
     Mueller(Box<mueller::Table>),
     Matrices(Box<mueller::Matrices>),
+    Polarised(Box<polarised::Matrices>),
     Window(window::Table),
 }
 
@@ -43,6 +47,7 @@ impl Representation {
             Representation::Utia(table) => machine.utia(table, pairs, out),
             Representation::Mueller(table) => machine.mueller(table, pairs, out),
             Representation::Matrices(table) => machine.matrices(table, pairs, out),
+            Representation::Polarised(table) => machine.polarised(table, pairs, out),
             Representation::Window(table) => machine.window(table, pairs, out),
         }
     }
@@ -62,7 +67,10 @@ pub(super) fn record(machine: impl Machine) -> Vec<Record> {
 impl Case {
     /// Named queries, and for each the bound of the fused form's difference; `None` if nothing is promised.
     fn sets(&self) -> [(&'static str, Queries, Option<Vec<f64>>); 4] {
-        let bounded = |queries: Queries| {
+        let bounded = |mut queries: Queries| {
+            if self.needs_unit {
+                queries = of_unit_length(&queries);
+            }
             let pairs = queries.wi.iter().zip(&queries.wo);
             // Both forms are this close to the exact value.
             let bound = |(&wi, &wo): (&[f32; 3], &[f32; 3])| {
@@ -78,7 +86,7 @@ impl Case {
             ("incoherent", incoherent, a),
             ("coherent", coherent, b),
             ("adversarial", adversarial, c),
-            ("not unit", not_unit(), None),
+            ("not unit", if self.needs_unit { Queries::default() } else { not_unit() }, None),
         ]
     }
 }
@@ -135,7 +143,7 @@ fn cases() -> &'static [Case] {
                 }),
             };
             let representation = Representation::HalfDiff(table.clone(), lookup);
-            cases.push(Case { name, representation, width: 3, reference });
+            cases.push(Case { name, representation, width: 3, reference, needs_unit: false });
         }
         let grids = [("spherical", spherical()), ("spherical, anisotropic", spherical_anisotropic())];
         for (name, grid) in grids {
@@ -145,6 +153,7 @@ fn cases() -> &'static [Case] {
                 width: table.channel_count(),
                 representation: Representation::Spherical(Box::new(table)),
                 reference: Box::new(move |wi, wo| grid.bound(wi, wo)),
+                needs_unit: false,
             });
         }
         let samples = scattered();
@@ -154,6 +163,7 @@ fn cases() -> &'static [Case] {
             representation: Representation::Scattered(Box::new(table)),
             width: 3,
             reference: Box::new(move |wi, wo| samples.bound(wi, wo)),
+            needs_unit: false,
         });
         let grid = utia();
         let largest = grid.values().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -163,6 +173,7 @@ fn cases() -> &'static [Case] {
             representation: Representation::Utia(Box::new(table)),
             width: 3,
             reference: Box::new(move |wi, wo| largest * grid.bound(wi, wo)),
+            needs_unit: false,
         });
         let matrices = mueller();
         let table = mueller::Table::new(&matrices).expect("a small table");
@@ -171,6 +182,7 @@ fn cases() -> &'static [Case] {
             width: table.channel_count(),
             representation: Representation::Mueller(Box::new(table)),
             reference: Box::new(move |wi, wo| matrices.bound(wi, wo)),
+            needs_unit: false,
         });
         let matrices = lobe_benches::tables::matrices();
         let table = mueller::Matrices::new(&matrices).expect("a small table");
@@ -179,6 +191,27 @@ fn cases() -> &'static [Case] {
             width: 16 * table.wavelength_count(),
             representation: Representation::Matrices(Box::new(table)),
             reference: Box::new(move |wi, wo| matrices.bound(wi, wo) + 4.0 * mueller::turned(wi, wo)),
+            needs_unit: false,
+        });
+        let matrices = polarised();
+        let edges = Edges::default();
+        let table = polarised::Matrices::new(&matrices, &edges).expect("a small table");
+        let width = 16 * table.wavelength_count();
+        // The same numbers as channels of a specular table.
+        let channels = Channels::Spectral((0..width).map(|k| 400.0 + k as f64).collect());
+        let (knots, values) = (matrices.knots().clone(), matrices.values().to_vec());
+        let elements = specular::Data::new(Scatter::Reflection, knots, channels, values).expect("valid matrices");
+        // The cases live as long as the program.
+        let bound = FusedBound::new(Box::leak(Box::new(elements)), Box::leak(Box::new(edges)));
+        cases.push(Case {
+            name: "polarised",
+            width,
+            representation: Representation::Polarised(Box::new(table)),
+            // A rotation of both frames at most doubles an error.
+            reference: Box::new(move |wi, wo| {
+                bound.at(wi.map(|x| x as f32), wo.map(|x| x as f32)) + 4.0 * mueller::turned(wi, wo)
+            }),
+            needs_unit: true,
         });
         let sheets = [
             ("Klems", klems()),
@@ -188,10 +221,24 @@ fn cases() -> &'static [Case] {
         for (name, window) in sheets {
             let table = window::Table::new(vec![window.clone()]).expect("a small sheet");
             let reference = Box::new(move |wi, wo| spread(window.candidates(wi, wo).into_iter()));
-            cases.push(Case { name, representation: Representation::Window(table), width: 1, reference });
+            cases.push(Case {
+                name,
+                representation: Representation::Window(table),
+                width: 1,
+                reference,
+                needs_unit: false,
+            });
         }
         cases
     })
+}
+
+/// The pairs of unit vectors.
+fn of_unit_length(queries: &Queries) -> Queries {
+    let is_unit = |w: &[f32; 3]| (w.iter().map(|x| f64::from(x * x)).sum::<f64>() - 1.0).abs() < 1e-6;
+    let pairs = queries.wi.iter().zip(&queries.wo).filter(|(wi, wo)| is_unit(wi) && is_unit(wo));
+    let (wi, wo) = pairs.map(|(wi, wo)| (*wi, *wo)).unzip();
+    Queries { wi, wo }
 }
 
 /// Half the range of the values from which lanes may choose: 0 if they have no choice.

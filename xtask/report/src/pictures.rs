@@ -1,5 +1,6 @@
 //! The gain from lanes in whole pictures: frames of a scene of many measured materials, and the rays alone.
 
+mod kinds;
 mod light;
 mod packets;
 mod scene;
@@ -11,6 +12,7 @@ use lobe::Backend;
 use lobe_render::{DEPTHS, Film, Settings, Stats, World, render};
 use serde::Serialize;
 
+use kinds::Kind;
 use light::LightRays;
 use packets::Packets;
 
@@ -33,6 +35,8 @@ pub struct Pictures {
     packets: Vec<Packets>,
     /// Rays from the lights on the last backend, by the number of surfaces that they have met.
     light: Vec<LightRays>,
+    /// Another scene on the last backend, in several kinds of light; red, green and blue first.
+    kinds: Vec<Kind>,
 }
 
 /// A frame on one thread.
@@ -88,7 +92,8 @@ pub fn measure(quick: bool) -> anyhow::Result<Pictures> {
         _ => Vec::new(),
     };
     let packets = packets::measure(rounds);
-    Ok(Pictures { materials: scene::MATERIALS, triangles, frames, threads, packets, light })
+    let kinds = kinds::measure(best, rounds)?;
+    Ok(Pictures { materials: scene::MATERIALS, triangles, frames, threads, packets, light, kinds })
 }
 
 /// Samples of the frames that threads share: so many that the last tile of each thread is a small part of the work.

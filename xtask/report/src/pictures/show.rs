@@ -87,6 +87,11 @@ impl Pictures {
                 percent(rays.lanes)
             ));
         }
+        let others = self.kinds.iter().skip(1);
+        notes.extend(others.map(|kind| {
+            let (light, ratio) = (kind.light, times(kind.ratio));
+            format!("A frame in {light} takes {ratio} the time of one in red, green and blue without polarisation.")
+        }));
         notes
     }
 }
