@@ -77,6 +77,22 @@ fn rough_films_have_the_colours_of_their_spectra() {
 }
 
 #[test]
+fn films_on_plastic_colour_it_and_make_no_light() {
+    let plastic = |film: &str| mirrored(&format!("model = \"plastic\"\nalbedo = 1\nalpha = 0.3\n{film}"));
+    let (bare, coated) = (plastic(""), plastic("film = { eta = 2.2, thickness = 200 }"));
+    let sky = mirrored("model = \"film\"\neta = 1\nthickness = 10");
+    assert!(coated.iter().zip(&sky).all(|(a, b)| *a < b * 1.01 && *a > 0.5 * b), "{coated:?}");
+    let ratios: Vec<f64> = coated.iter().zip(&bare).map(|(a, b)| a / b).collect();
+    let [least, most] = [f64::min, f64::max].map(|fold| ratios.iter().copied().reduce(fold).unwrap());
+    assert!(most - least > 0.05, "{ratios:?}");
+    // A film of the index of the coat is not there.
+    let same = plastic("film = { eta = 1.5, thickness = 300 }");
+    for (same, bare) in same.iter().zip(&bare) {
+        assert!((same / bare - 1.0).abs() < 0.02, "{same}, not {bare}");
+    }
+}
+
+#[test]
 fn mistakes_in_films_are_named() {
     for (material, expected) in [
         ("model = \"film\"\neta = 1.33", "thickness"),
