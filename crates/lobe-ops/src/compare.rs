@@ -132,11 +132,11 @@ pub fn spheres<'a>(
     aspect: Aspect,
     size: usize,
 ) -> Result<Spheres, NoColour> {
-    let (places, pixels): (Vec<usize>, Vec<_>) = lit_pixels(size).into_iter().unzip();
+    let pixels = lit_pixels(size);
     let (first, second) = (colours(a, aspect, &pixels)?, colours(b, aspect, &pixels)?);
     let mut found = vec![None; size * size];
-    for (place, (a, b)) in places.into_iter().zip(first.into_iter().zip(second)) {
-        found[place] = Some(delta_e(a, b));
+    for (pixel, (a, b)) in pixels.iter().zip(first.into_iter().zip(second)) {
+        found[pixel.index] = Some(delta_e(a, b));
     }
     Ok(Spheres { size, delta_e: found })
 }
@@ -154,9 +154,14 @@ pub fn visible<'a>(
     Ok(spheres(a, b, aspect, size)?.summary())
 }
 
-/// Each pixel that sees both the light and the viewer: its index, and the directions to the light and to the viewer in
-/// its frame.
-fn lit_pixels(size: usize) -> Vec<(usize, ([f64; 3], [f64; 3]))> {
+/// A pixel that sees both the light and the viewer: its index, and the directions to both in its frame.
+struct LitPixel {
+    index: usize,
+    wi: [f64; 3],
+    wo: [f64; 3],
+}
+
+fn lit_pixels(size: usize) -> Vec<LitPixel> {
     const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
     const VIEWER: [f64; 3] = [0.0, 0.0, 1.0];
     let centre = |index: usize| (2.0 * index as f64 + 1.0) / size as f64 - 1.0;
@@ -176,7 +181,7 @@ fn lit_pixels(size: usize) -> Vec<(usize, ([f64; 3], [f64; 3]))> {
             let local = |w: [f64; 3]| [dot(w, tangent), dot(w, up), dot(w, normal)];
             let (wi, wo) = (local(LIGHT), local(VIEWER));
             if wi[2] > 0.0 && wo[2] > 0.0 {
-                pixels.push((row * size + column, (wi, wo)));
+                pixels.push(LitPixel { index: row * size + column, wi, wo });
             }
         }
     }
@@ -187,13 +192,13 @@ fn lit_pixels(size: usize) -> Vec<(usize, ([f64; 3], [f64; 3]))> {
 fn colours<'a>(
     scattering: impl Into<OnBackend<'a>>,
     aspect: Aspect,
-    pixels: &[([f64; 3], [f64; 3])],
+    pixels: &[LitPixel],
 ) -> Result<Vec<[f64; 3]>, NoColour> {
     let coloured = Coloured::new(scattering, Space::Xyz)?;
-    let placed: Vec<_> = pixels.iter().map(|&(wi, wo)| aspect.place(wi, wo)).collect();
+    let placed: Vec<_> = pixels.iter().map(|pixel| aspect.place(pixel.wi, pixel.wo)).collect();
     let values = eval_pairs(&coloured, &placed);
-    let colour = |((wi, _), xyz): (&([f64; 3], [f64; 3]), &[f32])| {
-        [0, 1, 2].map(|c| (PI * f64::from(xyz[c]) * wi[2]).clamp(0.0, WHITE[c]))
+    let colour = |(pixel, xyz): (&LitPixel, &[f32])| {
+        [0, 1, 2].map(|c| (PI * f64::from(xyz[c]) * pixel.wi[2]).clamp(0.0, WHITE[c]))
     };
     Ok(pixels.iter().zip(values.chunks_exact(3)).map(colour).collect())
 }

@@ -172,7 +172,7 @@ fn conversion(source: &Subject, from: &Holder, to: &Holder, pairs: [usize; 2]) -
 }
 
 enum Written {
-    File(File),
+    File(Box<File>),
     Refused(String),
 }
 
@@ -200,7 +200,7 @@ fn written(source: &Subject, from: &str, to: &Holder) -> anyhow::Result<Written>
         // Only the file itself, as a user would pass it on.
         files.retain(|path, _| *path == to.path());
         let (subject, _) = in_memory(files, || Subject::open(&to.path(), &Options::default()));
-        return Ok(Written::File(File { subject: subject?, channel: channel.map(str::to_owned), is_kept }));
+        return Ok(Written::File(Box::new(File { subject: subject?, channel: channel.map(str::to_owned), is_kept })));
     }
     Ok(Written::Refused(refused))
 }
