@@ -102,8 +102,10 @@ pub enum FitError {
 pub const MOST_CHANNELS: usize = 16;
 /// The numbers of pairs of the first fits, from all starts and from the best of them.
 const COARSE: [usize; 2] = [512, 1500];
-/// The number of starts that are fitted again with all channels.
+/// The number of minima from which all channels are fitted.
 const BEST: usize = 4;
+/// Fits whose costs differ by less than this share are in the same minimum.
+const SAME: f64 = 1e-3;
 /// The number of rounds in which relative weights follow the model.
 const ROUNDS: usize = 4;
 
@@ -153,6 +155,8 @@ fn shared(measurement: &Measurement, request: &Request, nm: &[f64]) -> Result<Fi
     let mut grey_fits: Vec<_> = (0..request.starts.max(1)).into_par_iter().map(first).collect();
     grey_fits.retain(|(cost, _)| cost.is_finite());
     grey_fits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Several starts lead to the same minimum, which may not be the best one on more pairs.
+    grey_fits.dedup_by(|next, kept| (next.0 - kept.0).abs() <= SAME * kept.0);
     grey_fits.truncate(BEST);
     let more = measurement.thinned(COARSE[1]);
     let shapes = model.shapes();

@@ -42,9 +42,9 @@ pub struct Conversion {
     /// The root mean square of the difference relative to that of the values, as stated; `None` if the file keeps
     /// values and nodes of the source.
     pub stated: Option<f64>,
-    /// The same, found at more pairs of directions; `None` if nothing was written.
+    /// The same, found at more pairs of directions; `None` if there is nothing to compare.
     pub found: Option<f64>,
-    /// Why nothing was written.
+    /// Why nothing was written, or compared.
     pub refused: Option<String>,
 }
 
@@ -161,12 +161,13 @@ fn conversion(source: &Subject, from: &Holder, to: &Holder, pairs: [usize; 2]) -
         Written::File(file) => {
             let error = |pairs| {
                 let certified = certify(source, &file.subject, file.channel.as_deref(), pairs)?;
-                anyhow::ensure!(!certified.is_empty(), "nothing to compare");
-                Ok(worst(&certified))
+                anyhow::Ok((!certified.is_empty()).then(|| worst(&certified)))
             };
             let is_same = file.is_kept && file.subject.document.kinds() == source.document.kinds();
-            let stated = if is_same { None } else { Some(error(pairs[0])?) };
-            Ok(Conversion { from: from_name, to: to_name, stated, found: Some(error(pairs[1])?), refused: None })
+            let stated = if is_same { None } else { error(pairs[0])? };
+            let found = error(pairs[1])?;
+            let refused = found.is_none().then(|| "written, but with no channel to compare".to_owned());
+            Ok(Conversion { from: from_name, to: to_name, stated, found, refused })
         }
     }
 }
@@ -194,7 +195,7 @@ fn written(source: &Subject, from: &str, to: &Holder) -> anyhow::Result<Written>
                 refused = why;
                 continue;
             }
-            Err(Refusal::Material(why)) => return Ok(Written::Refused(why)),
+            Err(Refusal::Material(why)) => return Ok(Written::Refused(format!("refused, {why}"))),
             Err(Refusal::Failed(error)) => return Err(error),
         };
         // Only the file itself, as a user would pass it on.
@@ -202,7 +203,7 @@ fn written(source: &Subject, from: &str, to: &Holder) -> anyhow::Result<Written>
         let (subject, _) = in_memory(files, || Subject::open(&to.path(), &Options::default()));
         return Ok(Written::File(Box::new(File { subject: subject?, channel: channel.map(str::to_owned), is_kept })));
     }
-    Ok(Written::Refused(refused))
+    Ok(Written::Refused(format!("refused, {refused}")))
 }
 
 enum Refusal {
@@ -275,7 +276,7 @@ pub fn grid(conversions: &[Conversion]) -> Grid {
     let verdict = if wrong == 0 { "all of them as stated".to_owned() } else { format!("{wrong} NOT AS STATED") };
     let mut notes: Vec<String> = Vec::new();
     for Conversion { from, to, refused, .. } in conversions {
-        notes.extend(refused.as_ref().map(|why| format!("{from} to {to}: refused, {why}")));
+        notes.extend(refused.as_ref().map(|why| format!("{from} to {to}: {why}")));
     }
     let reading = format!(
         "A conductor, written in each format and from there in each format: the error stated for the conversion / the \
