@@ -11,6 +11,9 @@ use crate::{Opened, Request};
 /// Numbers per vertex of [`surface`]: x, y, z and the value.
 pub const SURFACE_ROW: usize = 4;
 
+/// The cosine of the polar angle, 89 degrees, at which the surface ends.
+const LOWEST: f64 = 0.0175;
+
 /// The lobe for light at `sigma` as a surface, whose distance from the origin is the value relative to the largest one,
 /// or the position of the value on a logarithmic axis. It is a grid of `rows + 1` rings by `columns + 1` azimuths,
 /// `[ring][azimuth]`. The rings begin at the mirror or straight-through direction, around which they are densest, and
@@ -49,8 +52,8 @@ pub fn surface(
             let theta = end * t * t;
             let (sin, cos) = theta.sin_cos();
             let wo: [f64; 3] = std::array::from_fn(|k| cos * pole[k] + sin * away[k]);
-            // At the horizon itself there is no value.
-            let wo = [wo[0], wo[1], up * (up * wo[2]).max(1e-6)];
+            // At the horizon itself there is no value, and just above it values may be of any size.
+            let wo = [wo[0], wo[1], up * (up * wo[2]).max(LOWEST)];
             places.push(Place { at: places.len(), wo: wo.map(|c| c as f32) });
         }
     }
