@@ -6,7 +6,7 @@ use lobe_model::Film;
 use lobe_spectrum::Metal;
 
 use super::Reading;
-use super::material::{Index, glass};
+use super::index::{Index, glass};
 use super::node::{Node, SceneError};
 use crate::shader::FilmTable;
 use crate::transport::Transport;

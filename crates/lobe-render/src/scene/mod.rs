@@ -1,6 +1,7 @@
 //! Scenes in TOML files. The format is described in `docs/scenes.md`.
 
 mod film;
+mod index;
 mod light;
 mod material;
 pub(crate) mod node;

@@ -1,8 +1,6 @@
-//! Mueller matrices of pairs of directions that were mirrored at the surface.
+//! Directions mirrored at the surface, and Mueller matrices of pairs of them.
 
 use lobe_table::mueller::{Matrix, stokes_basis};
-
-use super::sheet::flipped;
 
 /// The matrix for light from `wi` to `wo`, from the matrix for both directions with the other side up. In the frames of
 /// [`stokes_basis`] both times.
@@ -56,6 +54,11 @@ pub(super) fn at_wavelength(wavelengths: &[f64], values: &[f32], nm: f64) -> f64
     let width = wavelengths[b] - wavelengths[a];
     let t = if width > 0.0 { ((nm - wavelengths[a]) / width).clamp(0.0, 1.0) } else { 0.0 };
     f64::from(values[a]) + t * (f64::from(values[b]) - f64::from(values[a]))
+}
+
+/// The same direction with the other side up.
+pub(crate) fn flipped([x, y, z]: [f32; 3]) -> [f32; 3] {
+    [x, y, -z]
 }
 
 /// Both directions with the other side up, if the light comes from below.

@@ -13,10 +13,10 @@ use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side, specul
 
 use crate::error::{ShapeError, expect, fitting};
 use crate::{Backend, parallel};
+pub(crate) use frames::flipped;
 use mirror::Mirror;
 pub(crate) use mirror::mirrored;
 pub use sheet::SHEET;
-pub(crate) use sheet::flipped;
 
 /// The source of a material.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use lobe_table::mueller::Matrix;
 use lobe_table::{Aspect, Bsdf, Channels, Directions, Kind, Scatter, Side};
 
-use super::frames::{at_wavelength, depolariser, unflipped, upright};
+use super::frames::{at_wavelength, depolariser, flipped, unflipped, upright};
 use crate::Backend;
 
 /// The kind of a material that consists of several measurements.
@@ -32,11 +32,6 @@ impl Part {
         // Compares signs, because a product of small numbers may vanish.
         is_on_side && (wi[2] > 0.0 && opposite * wo[2] > 0.0 || wi[2] < 0.0 && opposite * wo[2] < 0.0)
     }
-}
-
-/// The same direction with the other side up.
-pub(crate) fn flipped([x, y, z]: [f32; 3]) -> [f32; 3] {
-    [x, y, -z]
 }
 
 /// At least one part; all have the same channels.
