@@ -1,5 +1,5 @@
-//! The parts of the report beyond the tables of the paper: formats, conversions, energy, samplers, pictures, equivalence, and the
-//! page.
+//! The parts of the report beyond the tables of the paper: formats, conversions, energy, samplers, pictures,
+//! equivalence, and the page.
 #![forbid(unsafe_code)]
 
 mod bars;
