@@ -37,7 +37,7 @@ Examples:
   lobe convert paint.ddr lens.bsdf --to lighttools            for LightTools
   lobe convert paint.bsdf paint.npz                           for numpy.load
   lobe convert gold.mueller gold.csv --to mueller-csv         Mueller matrices as a table
-  lobe convert paint.ddr green.pbsdf --channel G              for programs that trace polarised light
+  lobe convert paint.ddr green.pbsdf --channel G              for polarising renderers
   lobe convert film.ssdd film.bsdf --to zemax --channel G --scatter transmission
 
 Grids of half and difference angles (MERL) are interpolated between the centres of their bins."

@@ -6,7 +6,7 @@ use lobe_ops::direction_pairs;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Parameters of the shape, then those of three channels.
+/// Parameters of the shape, then those of three channels. The place in the list is the seed of the noise.
 fn cases() -> Vec<(Model, Vec<f64>, [Vec<f64>; 3])> {
     let of = |list: [f64; 3]| list.map(|value| vec![value]);
     let both = |first: [f64; 3], second: [f64; 3]| [0, 1, 2].map(|channel| vec![first[channel], second[channel]]);
@@ -20,7 +20,6 @@ fn cases() -> Vec<(Model, Vec<f64>, [Vec<f64>; 3])> {
         (Model::WardAnisotropic, vec![0.4, 0.15, 20.0], both(warm, [0.3, 0.4, 0.2])),
         (Model::Ggx, vec![0.2], both(warm, gold)),
         (Model::GgxAnisotropic, vec![0.15, 0.4, -25.0], both(warm, gold)),
-        (Model::GgxFresnel, vec![0.2, 0.8, 1.2], both(warm, gold)),
         (Model::OpenPbr, vec![0.4, 0.4, 1.6, 0.4], of(warm)),
         (Model::OpenPbrAnisotropic, vec![0.5, 0.45, 1.7, 0.4, 0.6, 30.0], of(gold)),
         (Model::Gltf, vec![0.6, 0.35], of(warm)),
@@ -29,6 +28,7 @@ fn cases() -> Vec<(Model, Vec<f64>, [Vec<f64>; 3])> {
         (Model::Abg, vec![1e-4, 2.3], of([0.01, 0.02, 0.005])),
         (Model::HarveyShack, vec![0.01, -1.6], of([5.0, 2.0, 8.0])),
         (Model::KCorrelation, vec![20.0, 2.6], of([1.2, 1.5, 0.8])),
+        (Model::GgxFresnel, vec![0.2, 0.8, 1.2], both(warm, gold)),
     ]
 }
 

@@ -153,7 +153,7 @@ pub(super) fn other_values(name: &str) -> Option<Stated> {
     }
     let unit = unit.as_str();
     if !PER_STERADIAN.contains(&unit) && (unit.contains("sr") || unit.contains("sterad") || has_factor(unit)) {
-        return stated(format!("the unit {unit}"), FACTOR, Remedy::Scale);
+        return stated(format!("the unit {}", name.unit), FACTOR, Remedy::Scale);
     }
     if name.is_of_incident_cosine() {
         return stated("a cosine of the incident light".into(), QUANTITY, Remedy::Either);
