@@ -141,7 +141,8 @@ mod tests {
     fn a_folder_is_one_material_and_a_file_is_read_with_its_sidecar() {
         let mut session = Session::new();
         session.add("scan/a.txt", lobe_testing::examples::RPC.into());
-        session.add("scan/b.txt", lobe_testing::examples::RPC.replace("5.000", "35.000").into());
+        let others = lobe_testing::examples::RPC.replace("5.000", "35.000").replace("\n7 0\n", "\n37 0\n");
+        session.add("scan/b.txt", others.into());
         let number = session.open("scan").unwrap();
         assert_eq!(session.opened(number).unwrap().subject.measured().format, lobe_formats::Format::Rpc);
 
