@@ -24,8 +24,7 @@ use xtask_common::Grid;
 pub const ID: &str = "conversions";
 
 /// Pairs of directions at which the error is stated, and at which it is found.
-const FULL: [usize; 2] = [PAIRS, 2 * PAIRS];
-const QUICK: [usize; 2] = [4_000, 8_000];
+const PAIR_COUNTS: [usize; 2] = [PAIRS, 2 * PAIRS];
 /// Values that are kept may be rounded by this much.
 const ROUNDED: f64 = 2e-6;
 /// The error that is found may be larger than the stated one by this factor, as it is an estimate from finitely many
@@ -138,7 +137,7 @@ pub fn all(quick: bool) -> anyhow::Result<Vec<Conversion>> {
     let fixture = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/conductor-7x8x13.ddr"));
     let (format, document) = lobe_formats::open(fixture)?;
     let source = subject(format, document)?;
-    let (holders, pairs) = (holders(), if quick { QUICK } else { FULL });
+    let holders = holders();
     let mut conversions = Vec::new();
     for from in &holders {
         let Written::File(file) = written(&source, "", from)? else {
@@ -150,7 +149,7 @@ pub fn all(quick: bool) -> anyhow::Result<Vec<Conversion>> {
                 continue;
             }
             // A failure is shown in the table; it does not end the report.
-            conversions.push(conversion(&file.subject, from, to, pairs).unwrap_or_else(|error| Conversion {
+            conversions.push(conversion(&file.subject, from, to).unwrap_or_else(|error| Conversion {
                 from: from.name.to_owned(),
                 to: to.name.to_owned(),
                 stated: None,
@@ -162,7 +161,7 @@ pub fn all(quick: bool) -> anyhow::Result<Vec<Conversion>> {
     Ok(conversions)
 }
 
-fn conversion(source: &Subject, from: &Holder, to: &Holder, pairs: [usize; 2]) -> anyhow::Result<Conversion> {
+fn conversion(source: &Subject, from: &Holder, to: &Holder) -> anyhow::Result<Conversion> {
     let (from_name, to_name) = (from.name.to_owned(), to.name.to_owned());
     match written(source, from.name, to)? {
         Written::Refused(why) => {
@@ -174,8 +173,8 @@ fn conversion(source: &Subject, from: &Holder, to: &Holder, pairs: [usize; 2]) -
                 (!certified.is_empty()).then(|| worst(&certified))
             };
             let is_same = file.is_kept && file.subject.document.kinds() == source.document.kinds();
-            let stated = if is_same { None } else { error(pairs[0]) };
-            let found = error(pairs[1]);
+            let stated = if is_same { None } else { error(PAIR_COUNTS[0]) };
+            let found = error(PAIR_COUNTS[1]);
             let refused = found.is_none().then(|| "written, but with no channel to compare".to_owned());
             Ok(Conversion { from: from_name, to: to_name, stated, found, refused })
         }
@@ -233,6 +232,7 @@ fn failed(error: impl Into<anyhow::Error>) -> Refusal {
 fn write(source: &Subject, from: &str, to: &Holder, channel: Option<&str>) -> Result<bool, Refusal> {
     let unfit = |error| match error {
         ConvertError::Channels(why) => Refusal::Channels(why),
+        ConvertError::Write(error) => Refusal::Material(error.to_string()),
         error => failed(error),
     };
     // Matrices and trees have the same representation.

@@ -30,10 +30,10 @@ fn to_bytes(blocks: &[Part], encoding: Encoding) -> io::Result<Vec<u8>> {
     let types = blocks.iter().map(|block| data_type(&block.data)).collect::<io::Result<Vec<_>>>()?;
     let is_repeated = types.iter().enumerate().any(|(index, kind)| types[..index].contains(kind));
     if blocks.is_empty() || is_repeated {
-        return Err(unfit("an SSDD file has one to four blocks of different types"));
+        return Err(unfit("no block, or two of the same type, in an SSDD file"));
     }
     if blocks.iter().any(|block| block.side.is_some()) {
-        return Err(unfit("an SSDD file does not distinguish the sides of a sheet"));
+        return Err(unfit("one side of a sheet, which an SSDD file cannot state"));
     }
     let mut out = Vec::new();
     writeln!(out, "VERSION 0.3")?;
@@ -49,13 +49,13 @@ fn unfit(why: &str) -> io::Error {
 fn data_type(data: &Data) -> io::Result<&'static str> {
     let is_delta = match data {
         Data::Spherical(grid) if grid.is_mirrored() => {
-            return Err(unfit("an SSDD file has no half of a grid in spherical coordinates"));
+            return Err(unfit("half of a mirrored grid in spherical coordinates"));
         }
         Data::Specular(_) | Data::Spherical(_) => false,
         Data::Mirror(_) => true,
         other => {
             let kind = other.representation().kind();
-            return Err(unfit(&format!("an SSDD file holds grids in specular or spherical coordinates, not a {kind}")));
+            return Err(unfit(&format!("a {kind}, not a grid in specular or spherical coordinates")));
         }
     };
     Ok(match (data.representation().scatter(), is_delta) {
@@ -86,7 +86,7 @@ fn write_block(out: &mut Vec<u8>, block: &Part, data_type: &str, encoding: Encod
             wavelengths.iter().try_for_each(|nm| write!(out, " {nm}"))?;
             writeln!(out)?;
         }
-        Channels::Named(_) => return Err(unfit("an SSDD file has no bands with only names")),
+        Channels::Named(_) => return Err(unfit("bands that have only names")),
     }
     if let Some(system) = system {
         writeln!(out, "PARAM_TYPE {system}")?;
