@@ -9,23 +9,21 @@ use crate::angle::Unit;
 /// The meaning of the name of a column.
 pub(crate) fn meaning(name: &str) -> Meaning {
     let name = Name::new(name);
-    if let Some((_, meaning)) = WHOLE.iter().find(|(word, _)| *word == name.compact) {
-        return Meaning::Angle(*meaning, name.angle_unit);
+    if let Some(angle) = name.whole_angle() {
+        return angle;
     }
     // Colours for people, in spaces that are not linear.
     if ["l*", "a*", "b*", "c*", "h*", "u*", "v*"].contains(&name.text.as_str()) {
         return Meaning::Signal;
     }
-    name.angle().or_else(|| name.wavelength()).or_else(|| name.number()).or_else(|| name.values()).unwrap_or_else(
-        || {
-            let is = |list: &[&str]| name.words.iter().any(|word| list.contains(&word.as_str()));
-            match () {
-                () if is(OF_NO_VALUE) => Meaning::NoValue,
-                () if is(SIGNALS) || name.text == "i/f" || is_signal_unit(&name.unit) => Meaning::Signal,
-                () => Meaning::Unknown,
-            }
-        },
-    )
+    name.wavelength().or_else(|| name.number()).or_else(|| name.values()).unwrap_or_else(|| {
+        let is = |list: &[&str]| name.words.iter().any(|word| list.contains(&word.as_str()));
+        match () {
+            () if is(OF_NO_VALUE) => Meaning::NoValue,
+            () if is(SIGNALS) || name.text == "i/f" || is_signal_unit(&name.unit) => Meaning::Signal,
+            () => Meaning::Unknown,
+        }
+    })
 }
 
 impl Name {
@@ -87,6 +85,12 @@ impl Name {
         Name { words, compact, text: spelled, unit, angle_unit }
     }
 
+    /// An angle, named by one word or by several.
+    fn whole_angle(&self) -> Option<Meaning> {
+        let whole = WHOLE.iter().find(|(word, _)| *word == self.compact);
+        whole.map(|(_, angle)| Meaning::Angle(*angle, self.angle_unit)).or_else(|| self.angle())
+    }
+
     /// A name that is a number, perhaps after the name of an angle: `30`, `-30°`, `theta_i=30`, `AOI 10`.
     fn number(&self) -> Option<Meaning> {
         if LENGTHS.contains(&self.unit.as_str()) {
@@ -100,8 +104,10 @@ impl Name {
             return Some(Meaning::Number(found, self.angle_unit, None));
         }
         let (head, tail) = self.text.rsplit_once(['=', ':', ' ', '_'])?;
-        match meaning(head) {
-            Meaning::Angle(angle, unit) => Some(Meaning::Number(number(tail)?, self.angle_unit.or(unit), Some(angle))),
+        let value = number(tail)?;
+        // The head is no number in turn: a name may have as many separators as a line has characters.
+        match Name::new(head).whole_angle()? {
+            Meaning::Angle(angle, unit) => Some(Meaning::Number(value, self.angle_unit.or(unit), Some(angle))),
             _ => None,
         }
     }

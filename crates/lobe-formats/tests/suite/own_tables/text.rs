@@ -94,6 +94,16 @@ fn names_longer_than_other_files_are_read() {
     }
 }
 
+/// Each separator of a name was once a level of recursion.
+#[test]
+fn names_may_have_many_separators() {
+    for separator in [":1", "=1", "_1"] {
+        let name = separator.repeat(50_000);
+        let text = format!("theta_i,theta_o,f,x{name}\n0,0,1,1\n0,30,1,1\n30,0,1,1\n30,30,1,1\n");
+        assert!(read(text.as_bytes(), &[]).only().is_some());
+    }
+}
+
 #[test]
 fn encodings_and_ends_of_lines() {
     let text = table(HEAD, "\t");

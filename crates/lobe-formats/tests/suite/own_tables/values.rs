@@ -113,8 +113,8 @@ fn names_that_state_another_scale_are_refused() {
     };
     scaled("BRDF [10^-3 1/sr]", &[("scale", "0.001")]);
     scaled("normalised BRDF", &[("scale", "0.001")]);
-    refused(&named("BRDF [10^-3 1/sr]"), &[("values", "f")], "10-3", "scale");
-    refused(&named("BRDF\n,,10^-3/sr"), &[], "10-3", "scale");
+    refused(&named("BRDF [10^-3 1/sr]"), &[("values", "f")], "10^-3", "scale");
+    refused(&named("BRDF\n,,10^-3/sr"), &[], "10^-3", "scale");
     refused(&named("BRDF\n,,%"), &[], "%", "luminance-factor");
     for name in ["BRDF [sr^-1]", "BRDF [sr⁻¹]", "f (1/sr)", "BRDF (550)"] {
         is_the_measurement(&read(named(name).as_bytes(), &[]), 1, name);
