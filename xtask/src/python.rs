@@ -1,5 +1,5 @@
-//! `cargo xtask python`: installs the Python package as a user does, and tests it. `cargo test` runs the same tests on an
-//! unoptimised build, in an environment that `cargo xtask ci` creates.
+//! `cargo xtask python`: installs the Python package as a user does, and tests it. `cargo test` runs the same tests on
+//! an unoptimised build, in an environment that `cargo xtask ci` creates.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};

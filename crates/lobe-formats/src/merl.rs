@@ -101,8 +101,8 @@ pub(crate) fn damaged(bytes: &[u8], name: &Path) -> Option<Content> {
     Some(Content { what, advice: advice.into() })
 }
 
-/// `true` if these are values of 32 bits, and not the first half of a file of 64-bit values: as 32-bit values, these have
-/// arbitrary magnitudes every other time, or zeros if they are round numbers.
+/// `true` if these are values of 32 bits, and not the first half of a file of 64-bit values: as 32-bit values, these
+/// have arbitrary magnitudes every other time, or zeros if they are round numbers.
 fn are_single(values: &[u8]) -> bool {
     const SAMPLE: usize = 1 << 16;
     let (words, _) = values[..values.len().min(SAMPLE)].as_chunks();

@@ -6,8 +6,8 @@ use std::borrow::Cow;
 /// The same text in UTF-8 without a byte-order mark and with a line feed at the end of each line; other content is
 /// unchanged.
 ///
-/// UTF-16 is recognised by its mark, or by most characters at the start being ASCII in two bytes. Carriage returns become line feeds
-/// if there are no line feeds.
+/// UTF-16 is recognised by its mark, or by most characters at the start being ASCII in two bytes. Carriage returns
+/// become line feeds if there are no line feeds.
 pub fn text(bytes: &[u8]) -> Cow<'_, [u8]> {
     if let Some(order) = utf_16(bytes) {
         let units = bytes.chunks_exact(2).map(|pair| match order {

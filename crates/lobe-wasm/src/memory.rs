@@ -25,8 +25,8 @@ pub(crate) fn store_int(dst: &mut [i32], x: v128) {
     unsafe { v128_store(dst.as_mut_ptr().cast(), x) }
 }
 
-/// The four integers as indices, of which those outside, negative ones too, are `last`. They are clamped in one instruction,
-/// where four indices would take four comparisons; an index of wasm32 has as many bits as a lane.
+/// The four integers as indices, of which those outside, negative ones too, are `last`. They are clamped in one
+/// instruction, where four indices would take four comparisons; an index of wasm32 has as many bits as a lane.
 #[inline(always)]
 fn clamped(x: v128, last: usize) -> [usize; 4] {
     let x = u32x4_min(x, u32x4_splat(last as u32));
@@ -49,7 +49,8 @@ pub(crate) fn gather(table: &[f32], index: v128) -> v128 {
     }
 }
 
-/// The two floats of `table[index]` of four indices, each in the low half of a register; an index outside reads the last entry.
+/// The two floats of `table[index]` of four indices, each in the low half of a register; an index outside reads the
+/// last entry.
 #[inline(always)]
 pub(crate) fn load_pairs(table: &[[f32; 2]], index: v128) -> [v128; 4] {
     let [a, b, c, d] = clamped(index, table.len().checked_sub(1).expect("a gather from an empty table"));

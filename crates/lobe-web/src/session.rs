@@ -63,7 +63,8 @@ impl Session {
         Ok(number)
     }
 
-    /// What a file holds that can be read although it is no material: that of a mirror has no values for pairs of directions.
+    /// What a file holds that can be read although it is no material: that of a mirror has no values for pairs of
+    /// directions.
     ///
     /// # Errors
     /// If it cannot be read either.

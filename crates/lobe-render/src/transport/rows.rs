@@ -4,7 +4,7 @@ use super::{Bounce, Mueller, Polarisation};
 use crate::vec3::{Vec3, add, cross, dot, neg, scale};
 
 /// The first `R` rows of a Mueller matrix for each channel: the Stokes components that a film sums, of light that
-/// arrives at the other end of a path. The x axis of that light is [`stokes_basis`] of its direction in the world.
+/// arrives at the other end of a path. The x axis of that light is `stokes_basis` of its direction in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rows<const R: usize, const N: usize> {
     /// The elements, `[row][column][channel]`.

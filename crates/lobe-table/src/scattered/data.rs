@@ -276,8 +276,8 @@ fn turned(wo: [f64; 3], phi_i: f64, by: f64) -> [f64; 2] {
     [atan2(hypot(x, y), z), atan2(y, x)]
 }
 
-/// The place of a direction in its mesh. The last digit of a sine decides which of two equally good diagonals of a trapezoid of
-/// samples is an edge, so it must be the same on every system.
+/// The place of a direction in its mesh. The last digit of a sine decides which of two equally good diagonals of a
+/// trapezoid of samples is an edge, so it must be the same on every system.
 fn project(theta: f64, phi: f64) -> [f64; 2] {
     let (sin, cos) = sincos(phi);
     [theta * cos, theta * sin]

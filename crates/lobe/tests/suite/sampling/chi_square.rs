@@ -24,8 +24,8 @@ const MOST_POINTS: usize = 1 << 19;
 /// Samples per incident direction, unless [another number](asked) is asked for; fewer on emulated processors.
 const SAMPLES: usize = 100_000;
 
-/// The value of `LOBE_SAMPLES`, with which all files are tested (or those whose names contain `LOBE_FILES`), which takes
-/// half an hour for a million. Without the variable there are two files of each kind.
+/// The value of `LOBE_SAMPLES`, with which all files are tested (or those whose names contain `LOBE_FILES`), which
+/// takes half an hour for a million. Without the variable there are two files of each kind.
 fn asked() -> Option<usize> {
     std::env::var("LOBE_SAMPLES").ok().map(|count| count.parse().expect("LOBE_SAMPLES is a number"))
 }
@@ -56,8 +56,8 @@ fn raised([x, y, z]: [f32; 3]) -> [f64; 3] {
     [x, y, z.abs()].map(f64::from)
 }
 
-/// A density for one incident direction, and the frame in which it is summed: toward phi = 0, toward phi = 90 degrees, and
-/// the mirror direction.
+/// A density for one incident direction, and the frame in which it is summed: toward phi = 0, toward phi = 90 degrees,
+/// and the mirror direction.
 struct Density<'a> {
     sampler: &'a Sampler,
     incident: [f32; 3],
