@@ -107,6 +107,10 @@ mod tests {
             (b"#?RADIANCE\npabopto2bsdf x\nFORMAT=BSDF_RBFmesh\n\n", "a", "an interpolated BSDF of Radiance (.sir)"),
             (b"404: Not Found", "a", "the message of a server, `404: Not Found`"),
             (b"IESNA:LM-63-2002\n", "a", "the light distribution of a lamp (IES)"),
+            (b"Lamps Ltd\n1\n4\n24\n15\n37\n5\n\nDownlight\n", "a", "the light distribution of a lamp (EULUMDAT)"),
+            (b"# a room\nvoid plastic red\n0\n0\n5 .7 .1 .1 0 0\n", "a", "a scene of Radiance"),
+            (b"integrator = \"path\"\n[camera]\nposition = [0, 0, 1]\n", "a.toml", "a scene (TOML)"),
+            (b"#!/bin/sh\nlobe info \"$1\"\n", "a", "a script"),
             (b"hello, world", "a", "-"),
             (&[1, 2, 3, 200], "a", "-"),
         ] {

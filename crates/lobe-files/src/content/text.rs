@@ -208,7 +208,29 @@ fn other(text: &str) -> Option<Content> {
         () if has("WorldBegin") || has("LookAt ") && has("Camera ") => {
             Content::new("a scene of pbrt", "Open the material files that it names (`bsdffile`, `filename`)")
         }
+        () if text.lines().any(|line| line.trim() == "[camera]") => Content::new(
+            "a scene (TOML)",
+            "`lobe render` makes pictures of scenes; open the material files that it names",
+        ),
+        () if is_radiance_scene(text) => Content::new("a scene of Radiance", "Open the material files that it names"),
+        () if is_eulumdat(text) => Content::new("the light distribution of a lamp (EULUMDAT)", "It holds no material"),
+        () if text.starts_with("#!/") => Content::new("a script", ""),
         () if first == "newmtl" => Content::new("the materials of an OBJ file (.mtl)", FORMULA),
         () => return None,
     })
+}
+
+/// `true` if the first statement is a material or a surface, as in `void plastic red`.
+fn is_radiance_scene(text: &str) -> bool {
+    let lines = text.lines().map(str::trim);
+    let mut statements = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    statements.next().is_some_and(|line| line.starts_with("void ") && line.split_whitespace().count() == 3)
+}
+
+/// `true` if the second line to the seventh are a type, a symmetry, and the numbers and steps of two angles.
+fn is_eulumdat(text: &str) -> bool {
+    let numbers: Vec<f64> = text.lines().skip(1).take(6).map_while(|line| line.trim().parse().ok()).collect();
+    matches!(numbers[..], [kind, symmetry, ..] if numbers.len() == 6
+        && [1.0, 2.0, 3.0].contains(&kind)
+        && [0.0, 1.0, 2.0, 3.0, 4.0].contains(&symmetry))
 }
