@@ -52,3 +52,10 @@ impl Unit {
 pub(crate) fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }
+
+/// Degrees that readers convert to the same radians, with as few digits as possible; `None` if there are none.
+pub(crate) fn exact_degrees(radians: f64) -> Option<f64> {
+    let near = radians.to_degrees();
+    let candidates = [degrees(radians), near, near.next_up(), near.next_down()];
+    candidates.into_iter().find(|degrees| (degrees * Unit::Deg.radians()).to_bits() == radians.to_bits())
+}

@@ -7,6 +7,7 @@ use std::path::Path;
 use lobe_table::{Channels, Data, Scatter};
 
 use super::{ROWS, Rows, SPECULAR, SPHERICAL, TRANSMISSION};
+use crate::angle::{Unit, exact_degrees};
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
@@ -61,7 +62,7 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
         Data::Scattered(scattered) => {
             rows(&mut out, Some(Rows::Samples));
             let in_degrees: Option<Vec<[f64; 4]>> =
-                scattered.relative_samples().map(|(angles, _)| exact_degrees(angles)).collect();
+                scattered.relative_samples().map(|(angles, _)| all_in_degrees(angles)).collect();
             header(&mut out, &SPHERICAL, if in_degrees.is_some() { "deg" } else { "rad" }, &channels);
             for (index, (angles, values)) in scattered.relative_samples().enumerate() {
                 let angles = in_degrees.as_ref().map_or_else(|| exact_radians(angles), |degrees| degrees[index]);
@@ -104,15 +105,10 @@ fn is_restored([theta_i, phi_i, theta_o, relative]: [f64; 4], read: [f64; 4]) ->
 
 /// The angles of a file in degrees, with the fewest digits that a reader converts to the same radians; `None` if no
 /// digits do.
-fn exact_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
-    let unit = 1_f64.to_radians();
-    let degrees = |angle: f64| {
-        let (rounded, near) = ((angle.to_degrees() * 1e9).round() / 1e9, angle.to_degrees());
-        let candidates = [rounded, near, near.next_up(), near.next_down()];
-        candidates.into_iter().find(|degrees| (degrees * unit).to_bits() == angle.to_bits())
-    };
+fn all_in_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
+    let unit = Unit::Deg.radians();
     let [theta_i, phi_i, theta_o, relative] = angles;
-    let (a, b, c) = (degrees(theta_i)?, degrees(phi_i)?, degrees(theta_o)?);
+    let (a, b, c) = (exact_degrees(theta_i)?, exact_degrees(phi_i)?, exact_degrees(theta_o)?);
     let candidates = outgoing(phi_i, relative)
         .map(f64::to_degrees)
         .flat_map(|near| [(near * 1e9).round() / 1e9, near, near.next_up(), near.next_down()]);

@@ -54,6 +54,27 @@ fn samples_come_back() {
     assert_same(&fred::read(&bytes, Path::new("x")).expect("the same"), &expected);
 }
 
+/// Which of two equally good triangles a query is in depends on the last digit of an angle.
+#[test]
+fn fred_keeps_angles_of_whole_degrees_exactly() {
+    let mut angles = Vec::new();
+    for theta_i in 0..8_u8 {
+        for theta_o in 0..17_u8 {
+            for phi_o in 0..24_u8 {
+                let degrees = [10 * theta_i, 0, 5 * theta_o].map(f64::from);
+                let [theta_i, phi_i, theta_o] = degrees.map(f64::to_radians);
+                angles.push([theta_i, phi_i, theta_o, (15.0 * f64::from(phi_o)).to_radians()]);
+            }
+        }
+    }
+    let values = vec![1.0; angles.len()];
+    let expected = scattered::Data::new(Scatter::Reflection, Channels::Mono, &angles, &values).expect("samples");
+    let bytes = written(&Document::new(expected.clone()), Format::Fred).expect("a file");
+    let found = fred::read(&bytes, Path::new("x")).expect("the same");
+    let bits = |data: &scattered::Data| data.samples().map(|(angles, _)| angles.map(f64::to_bits)).collect::<Vec<_>>();
+    assert_eq!(bits(&found), bits(&expected));
+}
+
 /// Between the nodes, samples are interpolated differently; at the nodes, the values are the same.
 #[test]
 fn tables_are_listed_by_their_nodes() {
