@@ -94,7 +94,7 @@ fn ssdd_survives_a_round_trip() {
     let twice = [blocks[0].clone(), blocks[0].clone()];
     let refused = |parts: &[Part]| ssdd::write(parts, Encoding::Ascii, &path).unwrap_err().to_string();
     assert!(refused(&twice).contains("two of the same type"));
-    assert!(refused(&[Part { side: Some(Side::Back), ..blocks[0].clone() }]).contains("sides"));
+    assert!(refused(&[Part { side: Some(Side::Back), ..blocks[0].clone() }]).contains("one side of a sheet"));
 }
 
 #[test]
