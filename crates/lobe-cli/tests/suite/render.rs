@@ -202,6 +202,6 @@ fn a_preview_of_a_file() {
     assert!(said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 1 --quiet")).is_empty());
     assert_eq!(folder.bytes("ball.png")[16..24], [0, 0, 0, 64, 0, 0, 0, 48]);
     folder.good(&format!("preview {fixture} -o ball.exr --size 64x48 --samples 2 --show cloth"));
-    folder.bad("preview scene.toml -o ball.png", 1, "content of no known format");
+    folder.bad("preview scene.toml -o ball.png", 1, "found a scene (TOML); expected a measured material");
     folder.bad(&format!("preview {fixture} -o ball.png --size 64"), 2, "expected WxH");
 }

@@ -12,8 +12,7 @@ use crate::spec::unfit;
 use crate::{Document, FormatError, Place};
 
 /// Writes `path` completely or not at all: for each incident direction, one line per sample or node above the horizon.
-/// Angles are in degrees; they and values are read back bit for bit, but for azimuths of light that are rounded when they
-/// are turned.
+/// Angles are in degrees; values are read back bit for bit, and so are angles if the azimuth of the light is 0.
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written, or the document is not a list of samples of a reflectance or has
@@ -38,7 +37,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
         let [theta_i, phi_i, theta_o, phi_o] = sample.angles;
         if incident != Some([theta_i, phi_i]) {
             // The direction in which the light continues, not the one from which it comes.
-            let travels = (degrees(phi_i) + 180.0).rem_euclid(360.0);
+            let travels = degrees(phi_i) - 180.0;
             let _ = writeln!(out, "{} {travels}", degrees(theta_i));
             incident = Some([theta_i, phi_i]);
         }
