@@ -105,7 +105,7 @@ impl Name {
         }
         let (head, tail) = self.text.rsplit_once(['=', ':', ' ', '_'])?;
         let value = number(tail)?;
-        // The head is no number in turn: a name may have as many separators as a line has characters.
+        // Do not look for a number in the head again: a name may have as many separators as a line has characters.
         match Name::new(head).whole_angle()? {
             Meaning::Angle(angle, unit) => Some(Meaning::Number(value, self.angle_unit.or(unit), Some(angle))),
             _ => None,
