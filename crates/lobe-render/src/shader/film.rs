@@ -9,6 +9,7 @@ use lobe_table::Channels as Named;
 
 use super::Backend;
 use super::models::{turned, turns};
+use super::pairs::each_pair;
 use crate::channels::Channels;
 use crate::transport::Transport;
 
@@ -148,12 +149,10 @@ impl<S: Channels> Bsdf for RoughFilm<S> {
     }
 
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), self.channels.count() * wi.count(), "one value per query and channel");
-        for (query, texel) in out.chunks_exact_mut(self.channels.count()).enumerate() {
-            let (mirrors, elements) = self.at(wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
+            let (mirrors, elements) = self.at(wi, wo);
             texel.iter_mut().zip(elements.of[0].as_ref()).for_each(|(out, a)| *out = mirrors * a);
-        }
+        });
     }
 
     fn is_polarised(&self) -> bool {
@@ -161,10 +160,7 @@ impl<S: Channels> Bsdf for RoughFilm<S> {
     }
 
     fn mueller_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), 16 * self.channels.count() * wi.count(), "one matrix per query and channel");
-        for (query, matrices) in out.chunks_exact_mut(16 * self.channels.count()).enumerate() {
-            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, 16 * self.channels.count(), out, |wi, wo, matrices| {
             let (mirrors, elements) = self.at(wi, wo);
             let (before, after) = if mirrors > 0.0 { turns(wi, wo) } else { ([1.0, 0.0], [1.0, 0.0]) };
             for (channel, out) in matrices.chunks_exact_mut(16).enumerate() {
@@ -172,7 +168,7 @@ impl<S: Channels> Bsdf for RoughFilm<S> {
                 let matrix = turned(Elements { a, b, c, s }.matrix(), before, after);
                 out.iter_mut().zip(matrix.as_flattened()).for_each(|(out, m)| *out = *m as f32);
             }
-        }
+        });
         true
     }
 }

@@ -10,6 +10,7 @@ mod film;
 mod lambert;
 mod models;
 mod open;
+mod pairs;
 mod plastic;
 
 use std::fmt::Debug;

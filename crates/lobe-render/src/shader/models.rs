@@ -8,6 +8,7 @@ use lobe_table::Channels;
 use lobe_table::mueller::{Matrix, plane_normal, stokes_basis};
 
 use super::Backend;
+use super::pairs::each_pair;
 
 /// Models of three channels each, one after another, for any number of channels.
 #[derive(Debug)]
@@ -32,15 +33,11 @@ impl<M: Model + Debug + Send + Sync> Bsdf for Together<M> {
     }
 
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
-        let count = self.channels.count();
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), count * wi.count(), "one value per query and channel");
-        for (query, texel) in out.chunks_exact_mut(count).enumerate() {
-            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
             for (out, model) in texel.chunks_mut(3).zip(&self.models) {
                 out.iter_mut().zip(model.f(wi, wo)).for_each(|(out, value)| *out = value as f32);
             }
-        }
+        });
     }
 }
 
@@ -57,14 +54,11 @@ impl Bsdf for RoughMetal {
     }
 
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), self.channels.count() * wi.count(), "one value per query and channel");
-        for (query, texel) in out.chunks_exact_mut(self.channels.count()).enumerate() {
-            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
             for (channel, out) in texel.iter_mut().enumerate() {
                 *out = self.mirrors.in_plane(wi, wo, channel)[0][0] as f32;
             }
-        }
+        });
     }
 
     fn is_polarised(&self) -> bool {
@@ -72,16 +66,13 @@ impl Bsdf for RoughMetal {
     }
 
     fn mueller_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), 16 * self.channels.count() * wi.count(), "one matrix per query and channel");
-        for (query, matrices) in out.chunks_exact_mut(16 * self.channels.count()).enumerate() {
-            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, 16 * self.channels.count(), out, |wi, wo, matrices| {
             let (before, after) = turns(wi, wo);
             for (channel, out) in matrices.chunks_exact_mut(16).enumerate() {
                 let matrix = turned(self.mirrors.in_plane(wi, wo, channel), before, after);
                 out.iter_mut().zip(matrix.as_flattened()).for_each(|(out, m)| *out = *m as f32);
             }
-        }
+        });
         true
     }
 }

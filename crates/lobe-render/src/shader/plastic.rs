@@ -10,6 +10,7 @@ use lobe_table::Channels as Named;
 use super::Backend;
 use super::film::{FilmElements, FilmTable};
 use super::models::{turned, turns};
+use super::pairs::each_pair;
 use crate::channels::Channels;
 
 /// Rough facets on a base that scatters evenly and depolarises: [`lobe_model::RoughCoat`] in the channels of a picture.
@@ -80,19 +81,16 @@ impl<S: Channels> Bsdf for RoughPlastic<S> {
     }
 
     fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), self.channels.count() * wi.count(), "one value per query and channel");
-        for (query, texel) in out.chunks_exact_mut(self.channels.count()).enumerate() {
-            let parts = self.parts(wi.get(query).map(f64::from), wo.get(query).map(f64::from));
-            let Some(Parts { mirrors, mirrored, entering, leaving }) = parts else {
+        each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
+            let Some(Parts { mirrors, mirrored, entering, leaving }) = self.parts(wi, wo) else {
                 texel.fill(0.0);
-                continue;
+                return;
             };
             for (k, out) in texel.iter_mut().enumerate() {
                 let base = entering.channel(k).a * leaving.channel(k).a * f64::from(self.albedo.as_ref()[k]) / PI;
                 *out = (mirrors * mirrored.channel(k).a + base) as f32;
             }
-        }
+        });
     }
 
     fn is_polarised(&self) -> bool {
@@ -100,13 +98,10 @@ impl<S: Channels> Bsdf for RoughPlastic<S> {
     }
 
     fn mueller_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) -> bool {
-        assert_eq!(wi.count(), wo.count(), "as many wi as wo");
-        assert_eq!(out.len(), 16 * self.channels.count() * wi.count(), "one matrix per query and channel");
-        for (query, matrices) in out.chunks_exact_mut(16 * self.channels.count()).enumerate() {
-            let (wi, wo) = (wi.get(query).map(f64::from), wo.get(query).map(f64::from));
+        each_pair(wi, wo, 16 * self.channels.count(), out, |wi, wo, matrices| {
             let Some(Parts { mirrors, mirrored, entering, leaving }) = self.parts(wi, wo) else {
                 matrices.fill(0.0);
-                continue;
+                return;
             };
             let (before, after) = turns(wi, wo);
             for (k, out) in matrices.chunks_exact_mut(16).enumerate() {
@@ -119,7 +114,7 @@ impl<S: Channels> Bsdf for RoughPlastic<S> {
                 let matrix = turned(matrix, before, after);
                 out.iter_mut().zip(matrix.as_flattened()).for_each(|(out, m)| *out = *m as f32);
             }
-        }
+        });
         true
     }
 }
