@@ -2,6 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use colorous::Color;
 
 /// sRGB pixels with straight (not premultiplied) alpha, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +16,22 @@ pub struct Image {
 }
 
 impl Image {
+    /// Rows of `size` values each as colours; transparent where there is no value.
+    pub(crate) fn square<T: Copy + Into<f64>>(
+        size: usize,
+        values: &[Option<T>],
+        colour: impl Fn(f64) -> Color,
+    ) -> Self {
+        let pixel = |value: &Option<T>| match value {
+            None => [0; 4],
+            Some(value) => {
+                let Color { r, g, b } = colour((*value).into());
+                [r, g, b, 255]
+            }
+        };
+        Image { width: size as u32, height: size as u32, rgba: values.iter().flat_map(pixel).collect() }
+    }
+
     /// The picture as a PNG file.
     pub fn png(&self) -> Vec<u8> {
         let mut bytes = Vec::new();

@@ -1,6 +1,7 @@
 //! The figures.
 
 mod appearance;
+mod bar;
 mod cartesian;
 mod channels;
 mod chart;

@@ -4,6 +4,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 
+use super::bar::ramp;
 use super::cartesian::title;
 use super::chart::Axis;
 use super::legend::{Entry, Legend};
@@ -310,17 +311,11 @@ pub(super) fn bars(svg: &mut Svg<'_>, y: f64, high: f64) -> f64 {
 
 /// A colour bar from 0 to `high`, below its name; returns the height below it.
 fn bar(svg: &mut Svg<'_>, y: f64, name: &str, high: f64, steps: u32, colour: impl Fn(f64) -> colorous::Color) -> f64 {
-    const STEPS: usize = 256;
     let left = MARGIN + 16.0;
     let length = svg.layout().width - 2.0 * left;
-    let rgba = (0..STEPS).flat_map(|step| {
-        let colorous::Color { r, g, b } = colour(step as f64 / (STEPS - 1) as f64);
-        [r, g, b, 255]
-    });
-    let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
     let small = Text { size: 15.0, ..LABEL };
     svg.text([left, y], small, name);
-    svg.image(Area { x: left, y: y + 8.0, width: length, height: 14.0 }, &ramp);
+    svg.image(Area { x: left, y: y + 8.0, width: length, height: 14.0 }, &ramp(colour));
     for step in 0..=steps {
         let share = f64::from(step) / f64::from(steps);
         let x = left + share * length;

@@ -1,8 +1,11 @@
 //! Shows where a fitted model is above and below the measurement, with one disk for each incidence.
 
+use colorous::Color;
+
+use super::bar;
 use super::cartesian::title;
 use super::shared::{MARGIN, MIDDLE, conditions, heading, id, notes};
-use super::slices::{LEFT_OF_BAR, Place, frame_of_bar, light_and_mirror, rings};
+use super::slices::{Place, light_and_mirror, rings};
 use crate::evaluate::Progress;
 use crate::image::Image;
 use crate::layout::Paper;
@@ -19,6 +22,7 @@ const BELOW: f64 = 36.0;
 const SIZE: usize = 160;
 /// The differences at the ends of the colours.
 const END: f64 = 1.0;
+const LABELS: [(f64, &str); 5] = [(0.0, "−100 %"), (0.25, "−50 %"), (0.5, "0"), (0.75, "+50 %"), (1.0, "+100 %")];
 
 /// The disks of the incidences that are shown.
 pub(super) fn residuals(shown: Shown<'_>, fitted: &Fitted<'_>, progress: &dyn Progress) -> Vec<Residual> {
@@ -44,7 +48,7 @@ pub(super) fn draw(shown: Shown<'_>, disks: &[Residual], paper: Paper<'_>) -> St
         let y = top + row * (at / columns) as f64 + ABOVE + radius;
         let place = Place { x, y, radius };
         let area = Area { x: x - radius, y: y - radius, width: 2.0 * radius, height: 2.0 * radius };
-        svg.image(area, &picture(disk));
+        svg.image(area, &Image::square(disk.slice.size, &disk.difference, colour));
         rings(&mut svg, place);
         light_and_mirror(&mut svg, place, shown.view, disk.slice.sigma);
         let label = Text { is_heavy: true, size: 16.0, ..MIDDLE };
@@ -54,7 +58,7 @@ pub(super) fn draw(shown: Shown<'_>, disks: &[Residual], paper: Paper<'_>) -> St
         svg.text([x, y + radius + 18.0], Text { size: 14.0, role: Role::Muted, ..MIDDLE }, &said);
     }
     let y = top + row * disks.len().div_ceil(columns) as f64 + 14.0;
-    bar(&mut svg, y);
+    bar::labelled(&mut svg, y, |share| colour(END * (2.0 * share - 1.0)), &LABELS);
     let lines = [
         "Relative to the measured value, or to the mean of the disk if that is larger.".to_string(),
         "Red: the fit is above the measurement. Blue: below. Empty: not measured.".to_string(),
@@ -64,39 +68,7 @@ pub(super) fn draw(shown: Shown<'_>, disks: &[Residual], paper: Paper<'_>) -> St
 }
 
 /// Blue, white and red for -1, 0 and 1.
-fn colour(apart: f64) -> [u8; 3] {
+fn colour(apart: f64) -> Color {
     let place = 0.5 - 0.5 * (apart / END).clamp(-1.0, 1.0);
-    let colorous::Color { r, g, b } = colorous::RED_BLUE.eval_continuous(place);
-    [r, g, b]
-}
-
-fn picture(disk: &Residual) -> Image {
-    let pixel = |apart: &Option<f32>| match apart {
-        None => [0; 4],
-        Some(apart) => {
-            let [r, g, b] = colour(f64::from(*apart));
-            [r, g, b, 255]
-        }
-    };
-    let size = disk.slice.size as u32;
-    Image { width: size, height: size, rgba: disk.difference.iter().flat_map(pixel).collect() }
-}
-
-fn bar(svg: &mut Svg<'_>, y: f64) {
-    const STEPS: usize = 256;
-    let width = svg.layout().width;
-    let left = if svg.layout().is_narrow { 40.0 } else { LEFT_OF_BAR };
-    let length = width - 2.0 * left;
-    let rgba = (0..STEPS).flat_map(|step| {
-        let [r, g, b] = colour(END * (2.0 * step as f64 / (STEPS - 1) as f64 - 1.0));
-        [r, g, b, 255]
-    });
-    let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
-    svg.image(Area { x: left, y, width: length, height: 16.0 }, &ramp);
-    frame_of_bar(svg, [left, y], length);
-    for (share, label) in [(0.0, "−100 %"), (0.25, "−50 %"), (0.5, "0"), (0.75, "+50 %"), (1.0, "+100 %")] {
-        let x = left + share * length;
-        svg.line([x, y + 16.0], [x, y + 22.0], Role::Frame, 1.0);
-        svg.text([x, y + 40.0], Text { size: 16.0, ..MIDDLE }, label);
-    }
+    colorous::RED_BLUE.eval_continuous(place)
 }

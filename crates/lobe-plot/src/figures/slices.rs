@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use lobe::Scatter;
 
+use super::bar::{self, Extent};
 use super::cartesian::title;
 use super::shared::{MARGIN, MIDDLE, conditions, heading, id, notes, scatter_name, shortened};
 use crate::evaluate::Progress;
@@ -91,7 +92,7 @@ pub(super) fn draw(shown: &[Shown<'_>], of_files: &[OfFile], paper: Paper<'_>) -
             top += row * of.len().div_ceil(columns) as f64;
         }
     }
-    bar(&mut svg, top + 14.0, &scale);
+    scale_bar(&mut svg, top + 14.0, &scale);
     let bottom = signs_and_notes(&mut svg, top + 92.0, &all);
     svg.finish(bottom, &title(shown, "f over the outgoing hemisphere for each incidence"))
 }
@@ -234,35 +235,9 @@ fn cross_mark([x, y]: [f64; 2]) -> String {
     )
 }
 
-/// Where the colour bar begins on wide paper.
-pub(super) const LEFT_OF_BAR: f64 = 150.0;
-
-/// The frame of a colour bar.
-pub(super) fn frame_of_bar(svg: &mut Svg<'_>, [left, y]: [f64; 2], length: f64) {
-    for (from, to) in [
-        ([left, y], [left + length, y]),
-        ([left, y + 16.0], [left + length, y + 16.0]),
-        ([left, y], [left, y + 16.0]),
-        ([left + length, y], [left + length, y + 16.0]),
-    ] {
-        svg.line(from, to, Role::Frame, 1.0);
-    }
-}
-
 /// The colour bar, with its quantity at the right end, or above it if there is no room.
-fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
-    const STEPS: usize = 256;
-    let width = svg.layout().width;
-    let is_narrow = svg.layout().is_narrow;
-    let left = if is_narrow { 40.0 } else { LEFT_OF_BAR };
-    let length = width - 2.0 * left;
-    let rgba = (0..STEPS).flat_map(|step| {
-        let colorous::Color { r, g, b } = colorous::VIRIDIS.eval_rational(step, STEPS);
-        [r, g, b, 255]
-    });
-    let ramp = Image { width: STEPS as u32, height: 1, rgba: rgba.collect() };
-    svg.image(Area { x: left, y, width: length, height: 16.0 }, &ramp);
-    frame_of_bar(svg, [left, y], length);
+fn scale_bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
+    let Extent { left, length } = bar::framed(svg, y, |share| colorous::VIRIDIS.eval_continuous(share));
     let mut end = f64::NEG_INFINITY;
     for tick in scale.ticks() {
         let x = left + length * scale.place(tick.value);
@@ -280,8 +255,8 @@ fn bar(svg: &mut Svg<'_>, y: f64, scale: &Scale) {
     }
     let scaling = if scale.scaling == Scaling::Log { "log scale" } else { "linear scale" };
     let muted = Text { size: 16.0, role: Role::Muted, ..LABEL };
-    if is_narrow {
-        svg.rich([0.5 * width, y - 8.0], Text { size: 16.0, ..MIDDLE }, &format!("f (1/sr), {scaling}"));
+    if svg.layout().is_narrow {
+        svg.rich([left + 0.5 * length, y - 8.0], Text { size: 16.0, ..MIDDLE }, &format!("f (1/sr), {scaling}"));
     } else {
         svg.rich([left + length + 14.0, y + 14.0], LABEL, "f (1/sr)");
         svg.text([left - 100.0, y + 14.0], muted, scaling);
