@@ -3,7 +3,7 @@
 use super::chart::Axis;
 use super::lines::runs;
 use crate::ink::Ink;
-use crate::scale::{Scale, Scaling, minus};
+use crate::scale::{Scale, Scaling, Tick, minus};
 use crate::svg::{Anchor, Area, LABEL, Role, Svg, Text};
 
 /// The largest deviation of a drawn line from the values, in units of the figure.
@@ -53,7 +53,7 @@ impl Small<'_> {
                 svg.text([at, y + height + self.size + 2.0], text, &label);
             }
         }
-        for tick in self.scale.ticks().iter().filter(|tick| tick.label.is_some()) {
+        for tick in self.levels() {
             let at = level(tick.value);
             svg.line([x, at], [x + width, at], if tick.value == 0.0 { Role::Grid } else { Role::Faint }, 1.0);
             if self.has_labels[1] {
@@ -85,6 +85,16 @@ impl Small<'_> {
         }
         let name = Text { is_heavy: true, has_halo: true, ..style };
         svg.rich([x + 6.0, y + self.size + 3.0], name, &self.name);
+    }
+
+    /// The values that have a line and a label: as many as there is room for, among them 0.
+    fn levels(&self) -> Vec<Tick> {
+        let ticks: Vec<Tick> = self.scale.ticks().into_iter().filter(|tick| tick.label.is_some()).collect();
+        let place = |tick: &Tick| self.area.height * self.scale.place(tick.value);
+        let least = ticks.windows(2).map(|pair| place(&pair[1]) - place(&pair[0])).fold(f64::INFINITY, f64::min);
+        let step = (1.1 * self.size / least).ceil().max(1.0) as usize;
+        let zero = ticks.iter().position(|tick| tick.value == 0.0).unwrap_or(0);
+        ticks.into_iter().skip(zero % step).step_by(step).collect()
     }
 
     /// The values along the axis that have a line, and their labels.
@@ -120,6 +130,27 @@ impl Trace<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_of_values_do_not_overlap_and_include_0() {
+        let ratio = Scale { scaling: Scaling::Linear, low: -1.0, high: 1.0 };
+        let decades = Scale { scaling: Scaling::Log, low: 1e-4, high: 10.0 };
+        for (scale, height) in [84.0, 116.0, 300.0].into_iter().flat_map(|height| [(ratio, height), (decades, height)])
+        {
+            let area = Area { x: 0.0, y: 0.0, width: 100.0, height };
+            let (name, traces) = (String::new(), Vec::new());
+            let small = Small { area, name, axis: Axis::Angle, scale, traces, has_labels: [true; 2], size: 14.0 };
+            let levels = small.levels();
+            assert!(levels.len() > 1, "{height}");
+            for pair in levels.windows(2) {
+                assert!(
+                    height * (scale.place(pair[1].value) - scale.place(pair[0].value)) >= 14.0,
+                    "{height} {pair:?}"
+                );
+            }
+            assert_eq!(scale.low < 0.0, levels.iter().any(|tick| tick.value == 0.0));
+        }
+    }
 
     #[test]
     fn curves_end_where_there_is_no_value() {
