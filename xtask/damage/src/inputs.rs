@@ -21,6 +21,10 @@ pub enum Kind {
     Pairs,
     Sidecar,
     Plan,
+    /// A matrix of daylight.
+    Matrix,
+    /// A fitted model.
+    Fit,
 }
 
 /// A sound file.
@@ -91,6 +95,8 @@ const SCENE: &str = "[material.floor]\nmodel = \"lambert\"\nalbedo = [0.5, 0.4, 
     shape = \"sphere\"\nsegments = 16\nradius = 0.5\ntranslate = [0, 0.5, 0]\nmaterial = \"glass\"\n[[object]]\nshape = \"disk\"\nscale = 2\n\
     material = \"floor\"\nradiance = [2, 1, 1]\ntwo_sided = true\n[[light]]\nkind = \"point\"\nposition = [0, 3, 0]\nintensity = 3\n";
 
+const MATRIX: &str = "#?RADIANCE\nNROWS=2\nNCOLS=2\nNCOMP=3\nFORMAT=ascii\n\n1 0.5 0.25\t0 0 0\n0.1 0.2 0.3\t1 1 1\n";
+
 /// All inputs: our own small files, and those in the folder `LOBE_SHARED` if there is one.
 pub fn all() -> Vec<Input> {
     let mut inputs = Vec::new();
@@ -115,6 +121,10 @@ pub fn all() -> Vec<Input> {
     inputs.push(Input::new(Kind::Pairs, "csv", PAIRS));
     inputs.extend(SIDECARS.map(|text| Input::new(Kind::Sidecar, "toml", text)));
     inputs.push(Input::new(Kind::Plan, "json", PLAN));
+    inputs.push(Input::new(Kind::Matrix, "mtx", MATRIX));
+    let floats: Vec<u8> = (0..12_u8).flat_map(|value| (f32::from(value) / 8.0).to_le_bytes()).collect();
+    let head = MATRIX.split_once("ascii").expect("a format").0.as_bytes();
+    inputs.push(Input::new(Kind::Matrix, "mtx", [head, b"float\n\n", &floats].concat()));
     inputs.push(Input::new(Kind::Scene, "toml", format!("{HEAD}{SCENE}")));
     for kind in ["bdpt", "vcm", "light", "ao", "whitted"] {
         let scene = format!("{HEAD}{SCENE}").replace("[integrator]\n", &format!("[integrator]\nkind = \"{kind}\"\n"));
@@ -144,6 +154,7 @@ pub fn sound(program: &Path, folder: &Path) -> Result<Vec<Input>> {
     write("sound.ddr", examples::DDR.as_bytes())?;
     write("pairs.csv", PAIRS.as_bytes())?;
     write("table.csv", TABLE.as_bytes())?;
+    write("sound.mtx", MATRIX.as_bytes())?;
     write("sound.toml", format!("{HEAD}{SCENE}").as_bytes())?;
     let mut made = Vec::new();
     for (part, tile) in [("sound-1.exr", "1/2"), ("sound-2.exr", "2/2")] {
@@ -152,6 +163,11 @@ pub fn sound(program: &Path, folder: &Path) -> Result<Vec<Input>> {
         let done = command.stdin(Stdio::null()).output().context("the program")?;
         ensure!(done.status.success(), "{part}: {}", String::from_utf8_lossy(&done.stderr));
     }
+    let mut fit = Command::new(program);
+    fit.args("fit sound.ddr --model ggx --starts 1 --pairs 64 -o fit.json".split(' ')).current_dir(folder);
+    let done = fit.stdin(Stdio::null()).output().context("the program")?;
+    ensure!(done.status.success(), "fit.json: {}", String::from_utf8_lossy(&done.stderr));
+    made.push(Input::new(Kind::Fit, "json", std::fs::read(folder.join("fit.json"))?));
     let part = std::fs::read(folder.join("sound-1.exr"))?;
     std::fs::write(folder.join("job/part-1.exr"), &part)?;
     made.push(Input::new(Kind::Part, "exr", part.clone()));

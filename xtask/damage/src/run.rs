@@ -26,6 +26,8 @@ pub enum Outcome {
     Abort,
     /// Longer than the limit.
     Hang,
+    /// A file was left that a failed command must not leave, or that is not whole.
+    Left,
 }
 
 impl Outcome {
@@ -40,6 +42,7 @@ impl Outcome {
             "panic" => Outcome::Panic,
             "abort" => Outcome::Abort,
             "hang" => Outcome::Hang,
+            "left" => Outcome::Left,
             code => Outcome::Code(code.parse().ok()?),
         })
     }
@@ -52,6 +55,7 @@ impl fmt::Display for Outcome {
             Outcome::Panic => f.write_str("panic"),
             Outcome::Abort => f.write_str("abort"),
             Outcome::Hang => f.write_str("hang"),
+            Outcome::Left => f.write_str("left"),
         }
     }
 }
@@ -92,8 +96,26 @@ pub fn run(program: &Path, arguments: &[String], folder: &Path, limits: Limits) 
         std::thread::sleep(Duration::from_millis(if begun.elapsed().as_millis() < 50 { 1 } else { 5 }));
     };
     let message = String::from_utf8_lossy(&std::fs::read(&said)?).into_owned();
-    let outcome = status.map_or(Outcome::Hang, |status| judged(status, &message));
+    let mut outcome = status.map_or(Outcome::Hang, |status| judged(status, &message));
+    if let Outcome::Code(code) = outcome
+        && leaves(folder, code)?
+    {
+        outcome = Outcome::Left;
+    }
     Ok((outcome, begun.elapsed(), message))
+}
+
+/// `true` if there is a temporary file, an empty output, or any output of a command that failed.
+fn leaves(folder: &Path, code: i32) -> Result<bool> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_output = name.starts_with("out.");
+        if name.starts_with(".lobe-") || is_output && (matches!(code, 1 | 2) || entry.metadata()?.len() == 0) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 fn judged(status: ExitStatus, message: &str) -> Outcome {
