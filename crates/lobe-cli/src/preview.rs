@@ -11,7 +11,7 @@ use lobe_files::check_output;
 use lobe_render::integrator::Path;
 use lobe_render::picture::{Meta, ToneMap, write_exr, write_png};
 use lobe_render::preview::{Show, studio};
-use lobe_render::shader::from_document;
+use lobe_render::shader::{Prepared, from_document};
 use lobe_render::{Film, Filter, Rect, Settings, render};
 
 use crate::angles::progress;
@@ -87,15 +87,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let bar = (!args.machine.is_quiet()).then(|| progress("preparing the material"));
     let mut watch = |done: usize, all: usize| bar.iter().for_each(|bar| bar(done as f64 / all.max(1) as f64));
     // Half of the time is for the picture itself.
-    let material = from_document(&document, &args.material, &options, backend, Some(time / 2), &mut watch);
+    let limit = time.saturating_sub(begun.elapsed()) / 2;
+    let prepared = from_document(&document, &args.material, &options, backend, Some(limit), &mut watch);
     drop(bar);
-    let material = material.map_err(|error| Failure::File(error.to_string()))?;
+    let Prepared { shader, is_limited } = prepared.map_err(|error| Failure::File(error.to_string()))?;
     let show = match args.show {
         Shown::Both => Show::Both,
         Shown::Ball => Show::Ball,
         Shown::Cloth => Show::Cloth,
     };
-    let (world, camera) = studio(material, show, backend).map_err(|error| Failure::File(error.to_string()))?;
+    let (world, camera) = studio(shader, show, backend).map_err(|error| Failure::File(error.to_string()))?;
     let window = Rect { x: 0, y: 0, width: args.size[0], height: args.size[1] };
     let settings = Settings {
         camera,
@@ -143,6 +144,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if !args.machine.is_quiet() {
         let mut out = message::out(false);
         writeln!(out, "{}: {}", args.output.display(), summary(args, kind, wanted, film.samples(), elapsed))?;
+        if is_limited {
+            let noise =
+                "The sampling of the material was prepared coarsely, to keep within --time; this gives more noise.";
+            writeln!(out, "{noise}")?;
+        }
         out.flush()?;
     }
     Ok(())

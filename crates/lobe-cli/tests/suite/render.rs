@@ -202,6 +202,18 @@ fn a_preview_of_a_file() {
     assert!(said(&format!("preview {fixture} -o ball.png --size 64x48 --samples 1 --quiet")).is_empty());
     assert_eq!(folder.bytes("ball.png")[16..24], [0, 0, 0, 64, 0, 0, 0, 48]);
     folder.good(&format!("preview {fixture} -o ball.exr --size 64x48 --samples 2 --show cloth"));
+    // A grid of angles is sampled by histograms, which are coarse if there is hardly any time to build them.
+    let mut table = String::from("theta_i,theta_o,phi_o,f\n");
+    for (incident, theta, phi) in (0..36).map(|k| (k / 12 * 30, k / 4 % 3 * 30, k % 4 * 60)) {
+        table += &format!("{incident},{theta},{phi},{}\n", 1 + incident + theta + phi);
+    }
+    std::fs::write(folder.path("table.csv"), &table).unwrap();
+    let prepared = |time: &str| {
+        let said = said(&format!("preview table.csv -o ball.png --size 16x16 --samples 1 --time {time}"));
+        said.lines().nth(1).map(str::to_owned)
+    };
+    assert!(prepared("1ms").is_some_and(|line| line.contains("coarsely, to keep within --time")));
+    assert_eq!(prepared("5min"), None);
     folder.bad("preview scene.toml -o ball.png", 1, "found a scene (TOML); expected a measured material");
     folder.bad(&format!("preview {fixture} -o ball.png --size 64"), 2, "expected WxH");
 }

@@ -43,6 +43,7 @@ pub(super) fn read<T: Transport>(root: &Node<'_, '_>, reading: &mut Reading<'_, 
                 let (basis, options) = (reading.world.basis(), options(&node)?);
                 from_document_in(basis, &document, &path, &options, reading.backend, None, &mut watch)
                     .map_err(refused)?
+                    .shader
             }
             (None, None, 1..) => {
                 let key = if front.is_empty() { "back" } else { "front" };

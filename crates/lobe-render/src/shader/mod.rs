@@ -23,8 +23,8 @@ pub use lambert::Lambert;
 pub use lobe::Backend;
 pub(crate) use models::{RoughMetal, Together};
 pub use open::{
-    MaterialError, from_document, from_document_in, open, open_sheet, open_sheet_in, open_sheet_with_progress,
-    open_with,
+    MaterialError, Prepared, from_document, from_document_in, open, open_sheet, open_sheet_in,
+    open_sheet_with_progress, open_with,
 };
 pub(crate) use plastic::{RoughPlastic, Surface};
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use lobe::formats::{Document, FormatError};
 use lobe::table::{Data, mirror};
-use lobe::{Material, OpenError, Options, SamplerError, SamplerOptions, Scatter};
+use lobe::{Aspect, Material, OpenError, Options, Sampler, SamplerError, SamplerOptions, Scatter, Side};
 
 use super::{Backend, BsdfShader, Delta, DeltaShader, Shader};
 use crate::channels::Channels as _;
@@ -32,6 +32,15 @@ pub enum MaterialError {
     },
 }
 
+/// A material of a picture, ready to be evaluated and sampled.
+#[derive(Debug)]
+pub struct Prepared<T: Transport = Rgb> {
+    /// The material.
+    pub shader: Arc<dyn Shader<T>>,
+    /// `true` if directions are sampled from coarser distributions than without a limit of time.
+    pub is_limited: bool,
+}
+
 /// Opens any file that [`lobe`] can open as a material of a picture.
 ///
 /// # Errors
@@ -41,7 +50,7 @@ pub fn open(path: &Path, options: &Options, backend: Backend) -> Result<Arc<dyn 
 }
 
 /// Like [`open`], but calls `progress(done, all)` after each slice of the distributions from which directions are
-/// sampled. If they would take much longer than `limit` to build, coarser ones are built, which gives more noise.
+/// sampled. If they would take longer than `limit` to build, coarser ones are built, which gives more noise.
 ///
 /// # Errors
 /// The same as for [`open`].
@@ -52,7 +61,7 @@ pub fn open_with(
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
-    from_document(&lobe::formats::open(path)?.1, path, options, backend, limit, progress)
+    Ok(from_document(&lobe::formats::open(path)?.1, path, options, backend, limit, progress)?.shader)
 }
 
 /// Like [`open_with`], for a file that was already read; `path` is only used in errors.
@@ -66,7 +75,7 @@ pub fn from_document(
     backend: Backend,
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Arc<dyn Shader<Rgb>>, MaterialError> {
+) -> Result<Prepared, MaterialError> {
     from_document_in(&(), document, path, options, backend, limit, progress)
 }
 
@@ -82,11 +91,11 @@ pub fn from_document_in<T: Transport>(
     backend: Backend,
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Arc<dyn Shader<T>>, MaterialError> {
+) -> Result<Prepared<T>, MaterialError> {
     if let Some(data) = document.only().and_then(Data::mirror)
         && data.scatter() == Scatter::Reflection
     {
-        return Ok(Arc::new(DeltaShader(mirror::<T>(basis, data))));
+        return Ok(Prepared { shader: Arc::new(DeltaShader(mirror::<T>(basis, data))), is_limited: false });
     }
     let material = Material::from_document(document, options).map_err(|error| error.in_file(path))?;
     prepare(basis, material, path, backend, limit, progress)
@@ -132,7 +141,7 @@ pub fn open_sheet_in<T: Transport>(
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Arc<dyn Shader<T>>, MaterialError> {
     let first = front.iter().chain(back).next().cloned().unwrap_or_default();
-    prepare(basis, Material::open_sheet(front, back, options)?, &first, backend, None, progress)
+    Ok(prepare(basis, Material::open_sheet(front, back, options)?, &first, backend, None, progress)?.shader)
 }
 
 fn prepare<T: Transport>(
@@ -142,28 +151,53 @@ fn prepare<T: Transport>(
     backend: Backend,
     limit: Option<Duration>,
     progress: &mut dyn FnMut(usize, usize),
-) -> Result<Arc<dyn Shader<T>>, MaterialError> {
+) -> Result<Prepared<T>, MaterialError> {
     let material = material.with_backend(backend);
-    let bytes = limit.map(|limit| affordable(&material, limit));
-    let options = SamplerOptions { bytes, ..SamplerOptions::default() };
-    let shader = BsdfShader::<T>::measured_in(basis, material, &options, progress);
-    Ok(Arc::new(shader.map_err(|why| MaterialError::Sampler { file: path.into(), why })?))
+    let evaluations = limit.map(|limit| affordable(&material, limit));
+    let options = SamplerOptions { evaluations, ..SamplerOptions::default() };
+    let refused = |why| MaterialError::Sampler { file: path.into(), why };
+    let sampler = Sampler::with_progress(Arc::new(material), &options, progress).map_err(refused)?;
+    let is_limited = sampler.is_limited();
+    Ok(Prepared { shader: Arc::new(BsdfShader::<T>::new_in(basis, Arc::new(sampler), backend)), is_limited })
 }
 
-/// Bytes of histograms that are built in about this time.
+/// The number of pairs of directions that are evaluated in this time, as distributions do it: many directions for one
+/// of the light, on each side that the material scatters to.
 fn affordable(material: &Material, limit: Duration) -> usize {
-    const TRIALS: usize = 512;
+    const BATCH: usize = 128;
+    /// The trials take about this part of the limit.
+    const SHARE: u32 = 50;
     let direction = |k: usize| {
         let (z, turn) = ((k as f32 * 0.754_877_7).fract(), k as f32 * 2.4);
         let radius = (1.0 - z * z).max(0.0).sqrt();
         [radius * turn.cos(), radius * turn.sin(), z]
     };
-    let (wi, wo): (Vec<_>, Vec<_>) = (0..TRIALS).map(|k| (direction(k), direction(7 * k + 3))).unzip();
-    let mut values = vec![0.0; TRIALS * material.channel_count()];
-    let begun = Instant::now();
-    material.eval_batch(&wi, &wo, &mut values);
-    let evaluations = limit.as_secs_f64() / begun.elapsed().as_secs_f64().max(1e-9) * TRIALS as f64;
-    (0.5 * evaluations) as usize
+    let flipped = |[x, y, z]: [f32; 3], is_down: bool| if is_down { [x, y, -z] } else { [x, y, z] };
+    let aspects: Vec<Aspect> = Aspect::ALL.into_iter().filter(|&aspect| material.holds(aspect)).collect();
+    if aspects.is_empty() {
+        return usize::MAX;
+    }
+    let mut values = vec![0.0; BATCH * material.channel_count()];
+    let mut begun = Instant::now();
+    let mut pairs = 0;
+    for round in 0.. {
+        for aspect in &aspects {
+            let is_back = aspect.light == Side::Back;
+            let is_below = is_back != (aspect.scatter == Scatter::Transmission);
+            let wi = [flipped(direction(round + 1), is_back); BATCH];
+            let wo: Vec<_> = (0..BATCH).map(|k| flipped(direction(BATCH * round + k), is_below)).collect();
+            material.eval_batch(&wi, &wo, &mut values);
+            pairs += BATCH;
+        }
+        if begun.elapsed() >= limit / SHARE {
+            break;
+        }
+        if round == 0 {
+            // The first values are slow, because the table is not in any cache yet.
+            (begun, pairs) = (Instant::now(), 0);
+        }
+    }
+    (limit.as_secs_f64() / begun.elapsed().as_secs_f64().max(1e-9) * pairs as f64) as usize
 }
 
 /// Reflectance by the polar angle of the light, averaged over its azimuths.

@@ -177,6 +177,8 @@ pub struct Scheme {
     pub bsdf: Arc<dyn Bsdf>,
     /// Bytes of memory that the distributions take in addition to the values.
     pub bytes: usize,
+    /// `true` if the distributions would be finer without [`SamplerOptions::evaluations`].
+    pub is_limited: bool,
 }
 
 /// A function and the backend that it is evaluated on.

@@ -110,8 +110,9 @@ impl Bsdf for Prepared {
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Option<Scheme>, SamplerError> {
         let sampler = Sampler::with_progress(backend, self.table.clone(), options, progress)?;
-        let (bytes, polarised) = (sampler.bytes(), self.polarised.clone());
-        Ok(Some(Scheme { bsdf: Arc::new(Drawn { sampler, polarised }), bytes }))
+        let (bytes, is_limited) = (sampler.bytes(), sampler.distribution().is_limited());
+        let polarised = self.polarised.clone();
+        Ok(Some(Scheme { bsdf: Arc::new(Drawn { sampler, polarised }), bytes, is_limited }))
     }
 
     fn specular_table(&self) -> Option<&Arc<specular::Table>> {

@@ -81,6 +81,6 @@ impl Bsdf for Prepared {
         _: &SamplerOptions,
         _: &mut dyn FnMut(usize, usize),
     ) -> Result<Option<Scheme>, SamplerError> {
-        Ok(Some(Scheme { bsdf: Arc::new(self.clone()), bytes: 0 }))
+        Ok(Some(Scheme { bsdf: Arc::new(self.clone()), bytes: 0, is_limited: false }))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::budget::{Budget, Survey};
 use super::grid::{Grid, candidate_columns, candidate_rows, spread};
 use super::histogram::{Bin, Histogram, Light};
 use super::incident::Surface;
@@ -14,6 +15,8 @@ use lobe_memory::Storage;
 const MOST_BITS: u32 = 13;
 /// At least this many.
 const LEAST_BITS: u32 = 4;
+/// The number of midpoints per cell along each axis, except for the coarsest grid in a hurry.
+const LEAST_POINTS: usize = 2;
 /// The number of slices that decide where the grid is fine.
 const SURVEYED: usize = 32;
 /// Psi is undefined at the normal, and there is no light at the horizon, so slices of knots there are built slightly
@@ -38,13 +41,32 @@ pub(crate) struct Builder<'a, 'l> {
     pub(crate) phis: usize,
     /// At most this much memory.
     pub(crate) bytes: usize,
+    pub(crate) budget: Budget,
     pub(crate) defensive: f64,
 }
 
+/// What a builder builds.
+pub(crate) struct Built {
+    pub(crate) slices: Slices,
+    /// The brightness that a sum of 1 represents.
+    pub(crate) brightest: f64,
+    /// `true` if the number of evaluations was limited, and more would have given finer slices.
+    pub(crate) is_limited: bool,
+}
+
+/// The grid of all slices.
+struct Layout {
+    phi: Vec<f64>,
+    root_v: Vec<f64>,
+    grid: Grid,
+    /// The number of midpoints per cell along each axis.
+    points: usize,
+    is_limited: bool,
+}
+
 impl Builder<'_, '_> {
-    /// Builds the slices, and reports the finished number and the total to `progress`. Also returns the brightness that
-    /// a sum of 1 represents.
-    pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<(Slices, f64), DistributionError> {
+    /// Builds the slices, and reports the finished number and the total to `progress`.
+    pub(crate) fn build(mut self, progress: &mut dyn FnMut(usize, usize)) -> Result<Built, DistributionError> {
         let (sigma, psi) = (knots(self.sigma), self.psi.map_or(vec![0.0], knots));
         let count = sigma.len() * psi.len();
         let incident = |slice: usize| {
@@ -52,18 +74,21 @@ impl Builder<'_, '_> {
             let (sin_psi, cos_psi) = psi[slice % psi.len()].sin_cos();
             [sin_sigma * cos_psi, sin_sigma * sin_psi, cos_sigma].map(|x| x as f32)
         };
-        let stride = count.div_ceil(SURVEYED);
-        let surveyed = (0..count).step_by(stride).map(incident);
-        let (phi, root_v, grid) = self.lay_out(surveyed)?;
+        let survey = Survey {
+            slices: count,
+            stride: count.div_ceil(SURVEYED),
+            rows: candidate_rows(self.phis),
+            columns: candidate_columns(self.theta),
+        };
+        let Layout { phi, root_v, grid, points, is_limited } = self.lay_out(survey, &incident)?;
 
-        let points = if phi.len() * root_v.len() > 2048 { 2 } else { 4 };
         let mut slices = Vec::with_capacity(count);
         for slice in 0..count {
             slices.push(Slice::new(&self.histogram(incident(slice), &phi, &root_v, points), self.defensive));
             progress(slice + 1, count);
         }
         let brightest = slices.iter().fold(0.0, |most: f64, slice| most.max(slice.brightness));
-        Ok((self.store(grid, &slices, brightest), brightest))
+        Ok(Built { slices: self.store(grid, &slices, brightest), brightest, is_limited })
     }
 
     fn histogram(&mut self, incident: [f32; 3], phi: &[f64], root_v: &[f64], points: usize) -> Vec<Bin> {
@@ -71,16 +96,19 @@ impl Builder<'_, '_> {
         run(Histogram { light, surface, incident, phi, root_v, points })
     }
 
-    /// The finest grid that the size of the table allows, with edges where the light of the surveyed slices varies.
+    /// The finest grid that the size of the table and the budget allow, with edges where the light of the surveyed
+    /// slices varies.
     fn lay_out(
         &mut self,
-        surveyed: impl Iterator<Item = [f32; 3]>,
-    ) -> Result<(Vec<f64>, Vec<f64>, Grid), DistributionError> {
-        let rows = candidate_rows(self.phis);
-        let columns = candidate_columns(self.theta);
+        mut survey: Survey,
+        incident: &impl Fn(usize) -> [f32; 3],
+    ) -> Result<Layout, DistributionError> {
+        let mut is_limited = survey.limit(self.budget);
+        let left = self.budget.after(&survey);
+        let Survey { slices, stride, rows, columns } = survey;
         let (mut by_row, mut by_column) = (vec![0.0; rows.len() - 1], vec![0.0; columns.len() - 1]);
-        for incident in surveyed {
-            let bins = self.histogram(incident, &rows, &columns, 1);
+        for slice in (0..slices).step_by(stride) {
+            let bins = self.histogram(incident(slice), &rows, &columns, 1);
             let total: f64 = bins.iter().map(|bin| bin.light).sum();
             if total > 0.0 {
                 for (row, bins) in bins.chunks_exact(by_column.len()).enumerate() {
@@ -102,9 +130,15 @@ impl Builder<'_, '_> {
             let (rows, columns) = (blended << row_bits, blended << bits);
             let sums = Storage::<f32>::bytes_for(rows) + Storage::<f32>::bytes_for(columns);
             let fits = axes + grid.bytes() + sums <= self.bytes && i32::try_from(rows + columns).is_ok();
-            if bits == LEAST_BITS || fits {
-                return Ok((phi, root_v, grid));
+            let cells = slices << bits;
+            let is_affordable = left.allows(cells, LEAST_POINTS);
+            if bits == LEAST_BITS || fits && is_affordable {
+                let wanted = if phi.len() * root_v.len() > 2048 { LEAST_POINTS } else { 4 };
+                let points = left.points(cells, wanted);
+                is_limited |= points < wanted;
+                return Ok(Layout { phi, root_v, grid, points, is_limited });
             }
+            is_limited |= fits;
             bits -= 1;
         }
     }

@@ -3,7 +3,8 @@
 use lobe_backend::Backend;
 use lobe_lane::{Floats, Lanes};
 
-use super::build::Builder;
+use super::budget::Budget;
+use super::build::{Builder, Built};
 use super::histogram::{Bin, Histogram, Light};
 use super::incident::{Incident, Local, Surface};
 use super::options::{DistributionError, DistributionOptions, Plan};
@@ -24,6 +25,7 @@ pub struct Distribution {
     pub(super) psi: Option<Axis>,
     pub(super) slices: Slices,
     brightest: f32,
+    is_limited: bool,
 }
 
 impl Distribution {
@@ -48,8 +50,15 @@ impl Distribution {
         let sigma = axis("sigma", &options.sigma, Edge::Clamp)?;
         let psi = if options.psi.len() > 1 { Some(axis("psi", &options.psi, Edge::Periodic)?) } else { None };
         let theta: Vec<f32> = options.theta.iter().map(|&theta| theta as f32).collect();
-        let plan =
-            Plan { sigma, psi, theta: &theta, phis: options.phis, bytes: options.bytes, defensive: options.defensive };
+        let plan = Plan {
+            sigma,
+            psi,
+            theta: &theta,
+            phis: options.phis,
+            bytes: options.bytes,
+            budget: Budget::of(options.evaluations),
+            defensive: options.defensive,
+        };
         let run = |histogram: Histogram<'_>| backend.strict().run(histogram);
         Distribution::build(&run, light, surface, plan, progress)
     }
@@ -61,11 +70,11 @@ impl Distribution {
         plan: Plan<'_>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, DistributionError> {
-        let Plan { sigma, psi, theta, phis, bytes, defensive } = plan;
+        let Plan { sigma, psi, theta, phis, bytes, budget, defensive } = plan;
         if !(defensive > 0.0 && defensive <= 1.0) {
             return Err(DistributionError::Defensive { found: defensive });
         }
-        let (slices, brightest) = Builder {
+        let Built { slices, brightest, is_limited } = Builder {
             run,
             light,
             surface: &surface,
@@ -74,15 +83,21 @@ impl Distribution {
             theta,
             phis,
             bytes,
+            budget,
             defensive: f64::from(defensive),
         }
         .build(progress)?;
-        Ok(Distribution { surface, sigma, psi, slices, brightest: brightest as f32 })
+        Ok(Distribution { surface, sigma, psi, slices, brightest: brightest as f32, is_limited })
     }
 
     /// The kind of scatter: scattered directions are on the side of the incident one, or on the other.
     pub fn scatter(&self) -> Scatter {
         self.surface.scatter
+    }
+
+    /// `true` if it would be finer without a limit to the number of evaluations.
+    pub fn is_limited(&self) -> bool {
+        self.is_limited
     }
 
     /// Bytes of memory that the distribution takes.

@@ -15,6 +15,7 @@
 
 mod batches;
 mod block;
+mod budget;
 mod build;
 mod distribution;
 mod given;

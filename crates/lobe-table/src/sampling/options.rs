@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use thiserror::Error;
 
+use super::budget::Budget;
 use crate::{Axis, AxisError, Scatter};
 
 /// The options for laying out a [`Distribution`](super::Distribution).
@@ -21,6 +22,9 @@ pub struct DistributionOptions {
     pub phis: usize,
     /// The most memory to take, except for the coarsest grid.
     pub bytes: usize,
+    /// The most values of the function to compute, except for the coarsest grid; if `None`, as many as its finest grid
+    /// takes.
+    pub evaluations: Option<usize>,
     /// The part of every slice that is a cosine distribution, in `(0, 1]`.
     pub defensive: f32,
 }
@@ -35,7 +39,7 @@ impl DistributionOptions {
         sigma.extend([85.0, 88.0, 89.5].map(f64::to_radians));
         let psi = if isotropic { vec![0.0] } else { (0..16).map(|i| f64::from(i) / 16.0 * TAU).collect() };
         let theta = (0..=40).map(|i| PI * (f64::from(i) / 40.0).powi(2)).collect();
-        DistributionOptions { scatter, sigma, psi, theta, phis: 128, bytes, defensive: 0.05 }
+        DistributionOptions { scatter, sigma, psi, theta, phis: 128, bytes, evaluations: None, defensive: 0.05 }
     }
 }
 
@@ -72,5 +76,6 @@ pub(super) struct Plan<'a> {
     pub(super) theta: &'a [f32],
     pub(super) phis: usize,
     pub(super) bytes: usize,
+    pub(super) budget: Budget,
     pub(super) defensive: f32,
 }

@@ -7,6 +7,7 @@ use lobe_colour::luminance;
 use lobe_lane::{Floats, Lanes};
 use thiserror::Error;
 
+use super::budget::Budget;
 use super::distribution::Distribution;
 use super::given::{Given, pair};
 use super::histogram::{Bin, Histogram, weigh};
@@ -27,12 +28,15 @@ pub struct SamplerOptions {
     /// The most memory for histograms, except for the coarsest grid, if it is less than one and a half times that of
     /// the material. Building them takes up to two evaluations per byte.
     pub bytes: Option<usize>,
+    /// The most values of the material to compute while building histograms, except for the coarsest grid. Few values
+    /// give coarse histograms, and these give more noise.
+    pub evaluations: Option<usize>,
 }
 
 impl Default for SamplerOptions {
     /// A twentieth of a cosine distribution; luminance by the kind of the channels.
     fn default() -> Self {
-        SamplerOptions { defensive: 0.05, luminance: None, bytes: None }
+        SamplerOptions { defensive: 0.05, luminance: None, bytes: None, evaluations: None }
     }
 }
 
@@ -276,7 +280,8 @@ fn distribution(
         psi: table.is_anisotropic().then(|| table.axes()[PSI].clone()),
         theta: table.axes()[THETA].knots(),
         phis: table.axes()[PHI].knots().len(),
-        bytes: table.bytes() + table.bytes() / 2,
+        bytes: (table.bytes() + table.bytes() / 2).min(options.bytes.unwrap_or(usize::MAX)),
+        budget: Budget::of(options.evaluations),
         defensive: options.defensive,
     };
     let mut room = Vec::new();

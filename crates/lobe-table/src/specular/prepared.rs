@@ -49,8 +49,8 @@ impl Bsdf for Prepared {
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Option<Scheme>, SamplerError> {
         let sampler = Sampler::with_progress(backend, self.0.clone(), options, progress)?;
-        let bytes = sampler.bytes();
-        Ok(Some(Scheme { bsdf: Arc::new(sampler), bytes }))
+        let (bytes, is_limited) = (sampler.bytes(), sampler.distribution().is_limited());
+        Ok(Some(Scheme { bsdf: Arc::new(sampler), bytes, is_limited }))
     }
 
     fn specular_table(&self) -> Option<&Arc<Table>> {

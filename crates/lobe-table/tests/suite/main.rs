@@ -1,5 +1,6 @@
 //! Every representation in lanes against its `f64` reference.
 
+mod budget;
 mod histograms;
 mod interpolation;
 mod lanes_against_reference;

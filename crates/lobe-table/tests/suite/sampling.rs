@@ -13,7 +13,7 @@ use lobe_table::{
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-fn fixture(name: &str) -> specular::Data {
+pub fn fixture(name: &str) -> specular::Data {
     match lobe_formats::open(&lobe_testing::files::fixture(name)).unwrap().1.only() {
         Some(Data::Specular(samples)) => samples.clone(),
         _ => panic!("{name} is not a table"),

@@ -96,6 +96,14 @@ impl Sampler {
         }
     }
 
+    /// `true` if the distributions would be finer without [`SamplerOptions::evaluations`].
+    pub fn is_limited(&self) -> bool {
+        match &self.distribution {
+            Distribution::Own(scheme) => scheme.is_limited,
+            Distribution::Lobes(lobes) => lobes.is_limited(),
+        }
+    }
+
     /// Samples one direction from two numbers in `[0, 1)`. Returns it with its density, and sets `weight` to `f` times
     /// cosine over the density, one value per channel. If the draw fails, everything is 0.
     ///

@@ -32,7 +32,7 @@ enum Lobe {
 impl Lobes {
     pub(super) fn new(
         material: &Material,
-        SamplerOptions { defensive, bytes: most, .. }: &SamplerOptions,
+        SamplerOptions { defensive, bytes: most, evaluations, .. }: &SamplerOptions,
         luminance: Vec<f32>,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, SamplerError> {
@@ -51,6 +51,7 @@ impl Lobes {
             let bytes = (material.bytes() + material.bytes() / 2).min(most.unwrap_or(usize::MAX)) / count;
             let mut options = DistributionOptions::unknown(aspect.scatter, material.is_isotropic(), bytes);
             options.defensive = *defensive;
+            options.evaluations = evaluations.map(|all| all / count);
             let mut side = LitSide { material, is_front, luminance: &luminance, values: Vec::new() };
             let mut light = |wi: &[[f32; 3]], wo: &[[f32; 3]], out: &mut [f32]| side.fill(wi, wo, out);
             let mut progress = |slice: usize, all: usize| progress(done * all + slice, count * all);
@@ -77,6 +78,10 @@ impl Lobes {
             _ => return None,
         };
         known.iter().all(|direction| direction[2] > 0.0).then_some(lobe)
+    }
+
+    pub(super) fn is_limited(&self) -> bool {
+        self.each().any(|(_, _, lobe)| matches!(lobe, Lobe::Histograms(distribution) if distribution.is_limited()))
     }
 
     pub(super) fn bytes(&self) -> usize {

@@ -1,8 +1,10 @@
 //! Materials with two sides: the choice of the lobe, mirrors, and unmeasured sides.
 
+use std::sync::Arc;
+
 use lobe::formats::{Document, Part};
 use lobe::table::mirror;
-use lobe::{Bsdf, Channels, Data, Given, Material, Options, Sampled, Scatter, Side, specular};
+use lobe::{Bsdf, Channels, Data, Given, Material, Options, Sampled, Sampler, SamplerOptions, Scatter, Side, specular};
 
 use super::materials::sampler;
 use super::{direction, numbers};
@@ -64,6 +66,17 @@ fn lobes_are_drawn_in_proportion_to_brightness() {
             assert!((light - expected).abs() < 0.01 * total, "{light} of the light, not {expected}");
         }
     }
+}
+
+#[test]
+fn lobes_share_the_evaluations_that_are_allowed() {
+    let built = |evaluations| {
+        let options = SamplerOptions { evaluations, ..SamplerOptions::default() };
+        Sampler::new(Arc::new(sheet()), &options).unwrap()
+    };
+    assert!(!built(None).is_limited());
+    // Four lobes of a third of a million pairs each.
+    assert!(built(Some(1_000_000)).is_limited() && !built(Some(10_000_000)).is_limited());
 }
 
 #[test]
