@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use lobe_colour::{RGB_TO_XYZ, WHITE, XYZ_TO_RGB};
-use lobe_table::window::klems;
+use lobe_table::window::{self, klems};
 use lobe_table::{Channels, Data};
 use thiserror::Error;
 
+use crate::averages::averages;
 use crate::{Document, Format, FormatError, Place};
 
 /// A document could not be written.
@@ -51,11 +52,22 @@ impl ChannelMap {
             let index = names.iter().position(|known| known.eq_ignore_ascii_case(name)).ok_or_else(|| {
                 ConvertError::Channels(format!("found no channel {name}; expected one of {}", names.join(", ")))
             })?;
+            // A band keeps its name where the format has names. Other channels become the visible band of a sheet.
+            let band = Channels::Named(vec![names[index].clone()]);
+            let keeps_name = matches!(from, Channels::Named(_)) && holds(&band);
+            let band_of_sheet = if is_of_window(format) && !keeps_name { ", as the band Visible" } else { "" };
             map = ChannelMap {
-                channels: Channels::Mono,
-                note: Some(format!("{} only", names[index])),
+                channels: if keeps_name { band } else { Channels::Mono },
+                note: Some(format!("{} only{band_of_sheet}", names[index])),
                 rows: vec![unit(index)],
             };
+        }
+        if let Channels::Spectral(wavelengths) = &map.channels
+            && is_of_window(format)
+            && let Some(averages) = averages(wavelengths)
+        {
+            let channels = Channels::Named(averages.names);
+            return Ok(ChannelMap { channels, note: Some(averages.note), rows: averages.rows });
         }
         if let Channels::Named(names) = &map.channels
             && names.len() == 1
@@ -100,8 +112,7 @@ impl ChannelMap {
 
     /// XYZ relative to the white of a format: in window sheets, equal energy, X = Y = Z.
     fn with_white_of(mut self, format: Format) -> Self {
-        let is_window = format.writer().is_some_and(|writer| writer.resampled_as == Ok(klems::KIND));
-        if is_window && self.channels == Channels::Xyz {
+        if is_of_window(format) && self.channels == Channels::Xyz {
             for (row, white) in self.rows.iter_mut().zip(WHITE) {
                 row.iter_mut().for_each(|weight| *weight /= white);
             }
@@ -128,6 +139,11 @@ impl ChannelMap {
         }
         mapped
     }
+}
+
+/// `true` for files of window sheets.
+fn is_of_window(format: Format) -> bool {
+    format.writer().is_some_and(|writer| writer.resampled_as == Ok(klems::KIND))
 }
 
 /// A summary of the written file.
@@ -167,8 +183,12 @@ pub fn convert(
     Ok(Some(Written { note: map.note }))
 }
 
-/// The same nodes with other channels; `None` if the representation does not support them.
+/// The same nodes with other channels, or some of the bands of a sheet; `None` if the representation does not support them.
 fn mapped(data: &Data, map: &ChannelMap, path: &Path) -> Result<Option<Data>, FormatError> {
+    if let (Data::Window(sheet), Channels::Named(names)) = (data, &map.channels) {
+        let bands = sheet.bands.iter().filter(|band| names.contains(&band.wavelength)).cloned().collect();
+        return Ok(Some(window::Data { bands }.into()));
+    }
     let mut mapped = data.clone();
     let changed = mapped.representation_mut().map_channels(map.channels.clone(), &|values| map.apply(values));
     match changed {

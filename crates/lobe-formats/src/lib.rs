@@ -26,6 +26,7 @@ mod adjust;
 pub mod alta;
 mod angle;
 pub mod astm;
+mod averages;
 mod bytes;
 mod columns;
 mod convert;

@@ -34,7 +34,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     writer: Some(Writer {
         extensions: &["xml"],
         holds_channels: |channels| matches!(channels, Channels::Mono | Channels::Xyz | Channels::Named(_)),
-        channels: "one channel, X Y Z or named bands",
+        channels: "one channel, X Y Z or named bands, or averages of wavelengths from 400 to 700 nm and beyond",
         holds: |document| matches!(document.only(), Some(Data::Window(_))),
         holds_sheets: true,
         scatter: either,
