@@ -90,10 +90,12 @@ mod tests {
         let turn: Vec<f32> = (0..9).map(|k| (-PI + 2.0 * PI * f64::from(k) / 8.0) as f32).collect();
         let axes = [turn, knots(10), knots(5), vec![450.0, 650.0]];
         let mut values = Vec::new();
-        for _ in &axes[0] {
+        for phi_d in &axes[0] {
             for theta_d in &axes[1] {
                 for _ in 0..axes[2].len() * 2 {
-                    values.extend((0..16).map(|element| mirrors(f64::from(*theta_d), element)));
+                    // Other values if light and viewer are exchanged, which adds half a turn to phi_d.
+                    let turned = 0.1 * phi_d.cos();
+                    values.extend((0..16).map(|element| mirrors(f64::from(*theta_d), element) + turned));
                 }
             }
         }
@@ -125,6 +127,7 @@ mod tests {
         assert!(matrices.values().iter().step_by(ELEMENTS).eq(&values));
         assert_eq!(matrices.values().iter().filter(|element| **element != 0.0).count(), values.len());
         let grey = specular::Data::new(scatter, table.knots().clone(), Channels::Rgb, vec![0.5; 3 * 4 * 5 * 3]);
-        assert!(depolarising(&grey.expect("a table")).is_err());
+        let refused = depolarising(&grey.expect("a table")).expect_err("no wavelengths");
+        assert!(matches!(&refused, GridError::Channels(found) if found.contains("expected wavelengths")), "{refused}");
     }
 }
