@@ -1,4 +1,4 @@
-//! The error of a written file, measured as by `lobe compare`.
+//! The file that is being converted, with which the written one is compared.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -6,10 +6,10 @@ use std::path::Path;
 use lobe::{Material, Options};
 use lobe_formats::Document;
 use lobe_ops::Subject;
-use lobe_ops::certify::{Certified, LIMIT, PAIRS, certify, worst};
-use serde::Serialize;
+use lobe_ops::certificate::{Certificate, DraftError, Stated};
 
 use crate::failure::Failure;
+use crate::message::say;
 use crate::target::Target;
 
 /// The file that is being converted.
@@ -18,11 +18,6 @@ pub struct Source<'a> {
     file: &'a Path,
     channel: Option<&'a str>,
 }
-
-/// The errors found, one per measurement.
-#[derive(Serialize)]
-#[serde(transparent)]
-pub struct Certificate(Vec<Certified>);
 
 impl<'a> Source<'a> {
     /// Takes the document of a file, of which only `channel` is written if there is one. `None` if the document has no
@@ -49,64 +44,39 @@ impl<'a> Source<'a> {
         self.file.file_name().unwrap_or_default().to_string_lossy()
     }
 
-    /// Compares a written file with the source. `None` if they have no channels, no colours or no side in common.
-    pub fn certify(&self, written: &Path) -> Result<Option<Certificate>, Failure> {
-        let written = Subject::open(written, &Options::default())?;
-        let certified = certify(&self.subject, &written, self.channel, PAIRS).ok();
-        Ok(certified.filter(|certified| !certified.is_empty()).map(Certificate))
+    /// Compares a written file with the source.
+    pub fn certify(&self, written: &Path) -> Result<Stated, Failure> {
+        Ok(Certificate::of_file(&self.subject, self.channel, written)?)
     }
 
-    /// Writes a document to a temporary folder, under the name of its file, reads it back, and compares it. `None` as
-    /// in [`certify`](Self::certify), and of formats that are only written.
-    pub fn certify_written(
-        &self,
-        document: &Document,
-        target: Target,
-        out: &Path,
-    ) -> Result<Option<Certificate>, Failure> {
-        if target.format.spec().read.is_none() {
-            return Ok(None);
-        }
-        let failed = |error: std::io::Error| Failure::File(format!("a temporary folder: {error}"));
-        let folder = tempfile::tempdir().map_err(failed)?;
-        let draft = folder.path().join(out.file_name().unwrap_or_default());
-        let shown = |error: lobe_formats::FormatError| {
-            let error = error.to_string();
-            Failure::File(error.replace(&*draft.to_string_lossy(), &out.to_string_lossy()))
-        };
-        (target.writer.write)(document, &draft).map_err(shown)?;
-        self.certify(&draft)
-    }
-
-    /// The reason why an error cannot be bounded.
-    pub fn no_bound(&self, out: &Path) -> Failure {
-        let expected = "a format that lobe reads, and a side and channels or colours that the source also has";
-        Failure::Usage(format!("{}: found nothing to compare with the source; expected {expected}", out.display()))
+    /// Compares what would be read from a written document with the source.
+    pub fn certify_draft(&self, document: &Document, target: Target, out: &Path) -> Result<Stated, Failure> {
+        Ok(Certificate::of_draft(&self.subject, self.channel, document, target.format, out)?)
     }
 }
 
-impl Certificate {
-    /// The largest of the relative errors (root mean square).
-    pub fn worst(&self) -> f64 {
-        worst(&self.0)
+/// The error of a file if it is known, otherwise the reason why it is not.
+pub fn split(stated: Stated) -> (Option<Certificate>, Option<String>) {
+    match stated {
+        Ok(certificate) => (Some(certificate), None),
+        Err(why) => (None, Some(why.to_string())),
     }
+}
 
-    /// One line of text per measurement.
-    pub fn lines(&self) -> impl Iterator<Item = String> {
-        let is_one = self.0.len() == 1;
-        self.0.iter().map(move |Certified { aspect, difference }| {
-            let (pairs, max, rms) = (difference.pairs, difference.max, difference.rms);
-            let prefix = if is_one { String::new() } else { format!("{aspect}: ") };
-            format!(
-                "{prefix}differs from the source by at most {max:.3e} 1/sr, rms {rms:.3e} 1/sr ({:.3} %), at {pairs} \
-                 pairs up to {LIMIT} degrees",
-                100.0 * difference.relative_rms
-            )
-        })
+/// Reports the error of a file on standard error, or the reason why none is known.
+pub fn report(stated: &Stated) {
+    match stated {
+        Ok(certificate) => certificate.lines().for_each(|line| say(format_args!("  {line}"))),
+        Err(why) => say(format_args!("  the error of the file is not stated: {why}")),
     }
+}
 
-    /// All measurements on one line.
-    pub fn line(&self) -> String {
-        self.lines().collect::<Vec<_>>().join("; ")
+impl From<DraftError> for Failure {
+    fn from(error: DraftError) -> Self {
+        match error {
+            DraftError::Write(error) => error.into(),
+            DraftError::Read(error) => error.into(),
+            other => Failure::File(other.to_string()),
+        }
     }
 }

@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use lobe::{Aspect, Data, Lookup, Material, Options, Scatter, Side};
-use lobe_files::check_output;
+use lobe_files::{Files, check_output, in_memory};
 use lobe_formats::{Document, Format, Part, convert};
+use lobe_ops::certificate::{Certificate, Stated};
+use lobe_ops::certify::Incomparable;
 use lobe_ops::remeasure::{MaterialSurface, Sides};
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::{self, Band, Block, Blocks, Component};
 use lobe_table::{mueller, polarised};
 use serde::Serialize;
 
-use crate::certificate::{Certificate, Source};
+use crate::certificate::{Source, report, split};
 use crate::failure::Failure;
 use crate::measure::{self, Job, Resampled, is_of_sheets};
 use crate::message::{self, say};
@@ -25,6 +27,8 @@ use crate::target::Target;
 #[derive(clap::Args)]
 #[command(
     after_help = "The extension of OUT, or --to, determines the format to write. If that format has the representation of the file, knots and values are written unchanged. Otherwise the material is resampled, and the nodes are reported together with the error that `lobe compare` finds; files of formats with comments keep both. --error refines the nodes until the relative error (root mean square) is met; if it cannot be, the exit code is 3 and no file is written. What the format cannot express is refused, and so is an option that would change nothing. Trees of WINDOW XML are written as trees, unless --to klems or --basis asks for matrices.
+
+WINDOW XML keeps the bands of another WINDOW XML file, Solar among them. Of wavelengths from 400 to 700 nm and beyond, it holds the averages under D65 (CIE-X, Visible, CIE-Z) and, if the wavelengths reach over 95 % of direct sunlight (ASTM G173), that under sunlight (Solar); otherwise the reason is stated. Nothing else has a solar band.
 
 Examples:
   lobe convert paint.ddr paint.ssdd                           the same table in another format
@@ -74,9 +78,14 @@ struct Answer {
     resampled: Option<String>,
     /// How the channels were changed; `None` if they were not.
     note: Option<String>,
-    /// The error as `lobe compare` prints it; `None` if nothing was resampled, or there is nothing to compare with.
+    /// The error as `lobe compare` prints it; `None` if there is none, or it is not known.
     error: Option<Certificate>,
+    /// Why there is no error; `None` if there is one.
+    no_error: Option<String>,
 }
+
+/// Why a file whose values were not resampled has no error.
+const UNCHANGED: &str = "the values and nodes are those of the file";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ScatterKind {
@@ -114,21 +123,15 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
     });
     let document = choose(document, target, asked, args)?;
     let format = target.format;
-    let answer = |resampled, note, error| Answer {
-        output: out.display().to_string(),
-        format: format.spec().word,
-        resampled,
-        note,
-        error,
+    let answer = |resampled, note, stated: Option<Stated>| {
+        let (error, no_error) = stated.map_or_else(|| (None, Some(UNCHANGED.into())), split);
+        Answer { output: out.display().to_string(), format: format.spec().word, resampled, note, error, no_error }
     };
     let channel = args.output.channel.as_deref();
     if (target.writer.holds)(&document) && !asks_for_matrices(&document, args) {
         args.output.refuse_all()?;
-        if let Some(written) = convert(&document, format, args.output.channel.as_deref(), out)? {
-            let note = written.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
-            say(format_args!("{}: {format}, with the values and nodes of the file{note}", out.display()));
-            let error = interpolated(&document, target, args)?;
-            return Ok(answer(None, written.note, error));
+        if let Some(Kept { note, stated }) = kept(&document, target, args)? {
+            return Ok(answer(None, note, stated));
         }
     }
     let is_polarised = document.parts.iter().any(|part| part.data.representation().is_polarised());
@@ -165,34 +168,58 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
         source: source.as_ref(),
         bound: args.error,
     };
-    let Resampled { nodes, note, certificate } = measure::write(&job)?;
-    Ok(answer(Some(nodes), note, certificate))
+    let Resampled { nodes, note, stated } = measure::write(&job)?;
+    let stated = stated.unwrap_or(Err(Incomparable::Aspects.into()));
+    Ok(answer(Some(nodes), note, Some(stated)))
 }
 
-/// The values at the nodes are those of the file. If the format turns them into another representation, values between
-/// the nodes differ, and the difference is reported.
-fn interpolated(document: &Document, target: Target, args: &Args) -> Result<Option<Certificate>, Failure> {
-    let out = args.output.out.as_path();
-    if target.format.spec().read.is_none() {
-        return Ok(None);
-    }
-    let (_, read) = lobe_formats::open(out)?;
-    let error = match Source::new(&args.file, document, target, args.output.channel.as_deref()) {
-        Some(source) if read.kinds() != document.kinds() => source.certify(out)?,
-        _ => None,
+/// A file with the values and nodes of the source.
+struct Kept {
+    /// How the channels were changed; `None` if they were not.
+    note: Option<String>,
+    /// The error, if the format turns the nodes into another representation, whose values between them differ.
+    stated: Option<Stated>,
+}
+
+/// Writes the values and nodes of the file unchanged; `None` if the format cannot hold them. If the error is larger
+/// than the bound, no file is written.
+fn kept(document: &Document, target: Target, args: &Args) -> Result<Option<Kept>, Failure> {
+    let (out, format, channel) = (args.output.out.as_path(), target.format, args.output.channel.as_deref());
+    let written = || -> Result<Option<Kept>, Failure> {
+        let Some(written) = convert(document, format, channel, out)? else { return Ok(None) };
+        let mut kept = Kept { note: written.note, stated: None };
+        if format.spec().read.is_some() {
+            let (_, read) = lobe_formats::open(out)?;
+            if read.kinds() != document.kinds()
+                && let Some(source) = Source::new(&args.file, document, target, channel)
+            {
+                kept.stated = Some(source.certify(out)?);
+            }
+        }
+        Ok(Some(kept))
     };
-    if let Some(error) = &error {
+    if let Some(bound) = args.error {
+        let (tried, _) = in_memory(Files::new(), written);
+        match tried?.and_then(|kept| kept.stated) {
+            Some(Ok(certificate)) if certificate.worst() > bound => {
+                let (out, error) = (out.display(), certificate.worst());
+                return Err(Failure::Check(format!(
+                    "{out}: the error is {error:.3e}, more than {bound}; `lobe resample` makes a table with more nodes. No \
+                     file was written"
+                )));
+            }
+            Some(Err(why)) => return Err(measure::no_bound(out, &why)),
+            _ => {}
+        }
+    }
+    let Some(kept) = written()? else { return Ok(None) };
+    let note = kept.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
+    say(format_args!("{}: {format}, with the values and nodes of the file{note}", out.display()));
+    if let Some(stated) = &kept.stated {
         say("  between the nodes, this format is interpolated differently");
-        error.lines().for_each(|line| say(format_args!("  {line}")));
+        report(stated);
     }
-    match (&error, args.error) {
-        (Some(error), Some(bound)) if error.worst() > bound => Err(Failure::Check(format!(
-            "{}: the error is {:.3e}, more than {bound}; `lobe resample` makes a table with more nodes",
-            out.display(),
-            error.worst()
-        ))),
-        _ => Ok(error),
-    }
+    Ok(Some(kept))
 }
 
 /// The parts of a document that a table for one side leaves out.

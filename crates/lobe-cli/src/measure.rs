@@ -7,15 +7,15 @@ use lobe_files::check_output;
 use lobe_formats::mbsdf::UNIFORM_HALF;
 use lobe_formats::{ChannelMap, Document, RESAMPLED};
 use lobe_model::goniometer::half_diff as bins;
-use lobe_model::goniometer::rgl::Resolution;
 use lobe_model::goniometer::tensor_tree::Refinement;
 use lobe_model::{Surface, is_isotropic};
+use lobe_ops::certificate::Stated;
 use lobe_ops::remeasure::{Mapped, Nodes, RemeasureError, Sides, refine, remeasure, resampled_matrices};
 use lobe_table::window::klems;
 use lobe_table::window::tensor_tree::Rank;
 use lobe_table::{Kind, half_diff, mueller, polarised, rgl, spherical, utia};
 
-use crate::certificate::{Certificate, Source};
+use crate::certificate::{Source, report};
 use crate::failure::Failure;
 use crate::message::say;
 use crate::output::{Output, Purpose, side};
@@ -43,8 +43,8 @@ pub struct Resampled {
     pub nodes: String,
     /// How the channels were changed; `None` if they were not.
     pub note: Option<String>,
-    /// The error of the file, if it is known.
-    pub certificate: Option<Certificate>,
+    /// The error of the file, or why it is not known; `None` of models, which have no file.
+    pub stated: Option<Stated>,
 }
 
 /// Measures a surface and writes it; reports the nodes and the error of the file on standard error.
@@ -77,14 +77,15 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
     };
     let (nodes, mut document) = match (source, bound) {
         (Some(source), Some(bound)) => {
-            let found = refine(nodes, channels, bound, |nodes| {
+            let found = refine(nodes, channels, bound, |nodes| -> Result<(Document, f64), Failure> {
                 let document = at_nodes(nodes).map_err(|error| file(out, &error))?;
-                let certificate = source.certify_written(&document, target, out)?;
-                let error = certificate.ok_or_else(|| source.no_bound(out))?.worst();
-                Ok::<_, Failure>((document, error))
+                match source.certify_draft(&document, target, out)? {
+                    Ok(certificate) => Ok((document, certificate.worst())),
+                    Err(why) => Err(no_bound(out, &why)),
+                }
             })?;
             if !found.is_met {
-                let (out, reached) = (out.display(), described(&found.nodes));
+                let (out, reached) = (out.display(), &found.nodes);
                 return Err(Failure::Check(format!(
                     "{out}: the smallest error that was reached is {:.3e}, with {reached}; expected {bound} or less. No file \
                      was written",
@@ -98,12 +99,9 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
             (nodes, document)
         }
     };
-    let certificate = match source {
-        Some(source) => source.certify_written(&document, target, out)?,
-        None => None,
-    };
-    let words = described(&nodes);
-    if let (Some(source), Some(certificate)) = (source, &certificate) {
+    let stated = source.map(|source| source.certify_draft(&document, target, out)).transpose()?;
+    let words = nodes.to_string();
+    if let (Some(source), Some(Ok(certificate))) = (source, &stated) {
         document.source.push((RESAMPLED.into(), format!("from {}, {words}: {}", source.name(), certificate.line())));
     }
     (writer.write)(&document, out)?;
@@ -129,12 +127,11 @@ pub fn write(job: &Job<'_>) -> Result<Resampled, Failure> {
                 say(format_args!("  {}", advice(&nodes)));
             }
         }
-        None => say("  lobe does not read this format, so the error is not known"),
+        None if stated.is_none() => say("  lobe does not read this format, so the error is not known"),
+        None => {}
     }
-    if let Some(certificate) = &certificate {
-        certificate.lines().for_each(|line| say(format_args!("  {line}")));
-    }
-    Ok(Resampled { nodes: words, note: map.note, certificate })
+    stated.iter().for_each(report);
+    Ok(Resampled { nodes: words, note: map.note, stated })
 }
 
 /// The kind of scatter that is written.
@@ -279,33 +276,10 @@ fn file(out: &Path, error: &dyn std::fmt::Display) -> Failure {
     Failure::File(format!("{}: {error}", out.display()))
 }
 
-/// Nodes in words.
-fn described(nodes: &Nodes) -> String {
-    match nodes {
-        Nodes::Utia => "the grid of the UTIA database, up to 75 degrees".into(),
-        Nodes::Mueller(knots) => {
-            let [turns, differences, halves] = knots.each_ref().map(Vec::len);
-            format!("{turns} phi_d x {differences} theta_d x {halves} theta_h")
-        }
-        Nodes::Specular(knots) | Nodes::Polarised(knots) => {
-            let [sigma, psi, theta, phi] = knots.each_ref().map(Vec::len);
-            format!("{sigma} sigma x {psi} psi x {theta} theta x {phi} phi")
-        }
-        Nodes::Spherical { knots, .. } => {
-            let [theta_i, phi_i, theta_o, phi_o] = knots.each_ref().map(Vec::len);
-            format!("{theta_i} theta_i x {phi_i} phi_i x {theta_o} theta_o x {phi_o} phi_o")
-        }
-        Nodes::HalfDiff([halves, differences, turns]) => {
-            format!("{halves} x {differences} x {turns} bins of half and difference angles")
-        }
-        Nodes::Rgl(Resolution { theta_i, phi_i, spectra, .. }) => {
-            format!("{theta_i} theta_i x {phi_i} phi_i, {spectra} x {spectra} texels")
-        }
-        Nodes::Klems(basis) => format!("means over {n} x {n} patches", n = basis.patches()),
-        Nodes::Tree(Refinement { rank, depth, error }) => {
-            format!("a tree of {} dimensions, halved up to {depth} times, leaves within {error}", rank.dimensions())
-        }
-    }
+/// The failure if an error is to be bounded that is not known.
+pub fn no_bound(out: &Path, why: &dyn std::fmt::Display) -> Failure {
+    let expected = "a format that lobe reads, and a side and channels or colours that the source also has";
+    Failure::Usage(format!("{}: found no error to bound ({why}); expected {expected}", out.display()))
 }
 
 /// Reads the file back and compares it with the surface.

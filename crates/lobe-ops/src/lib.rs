@@ -8,7 +8,8 @@
 //! - [`remeasure`]: any material at the nodes of another representation;
 //! - [`colour`]: from spectra to CIE XYZ and RGB;
 //! - [`describe`](mod@describe): the contents of a file, in names, numbers and words;
-//! - [`compare`]: the difference of two materials, in numbers and in appearance.
+//! - [`compare`]: the difference of two materials, in numbers and in appearance;
+//! - [`certify`](mod@certify), [`certificate`]: the error of a converted file.
 //!
 //! Operations evaluate any [`Bsdf`](lobe_table::Bsdf) on a backend, such as a [`lobe::Material`]. A [`Subject`] is an
 //! opened file with the information that operations need. Directions point away from the surface, normal on +z; angles
@@ -16,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 pub mod albedo;
+pub mod certificate;
 pub mod certify;
 pub mod check;
 pub mod colour;

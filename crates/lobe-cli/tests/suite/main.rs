@@ -24,5 +24,6 @@ mod render;
 mod resample;
 #[cfg(unix)]
 mod slurm;
+mod stated;
 mod strangers;
 mod sums;

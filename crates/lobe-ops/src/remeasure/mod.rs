@@ -5,6 +5,7 @@ mod nodes;
 mod refine;
 mod sheet;
 mod surface;
+mod words;
 
 use lobe_formats::Document;
 use lobe_model::Surface;
