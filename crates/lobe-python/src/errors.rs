@@ -4,6 +4,7 @@ use std::path::Path;
 
 use lobe::OpenError;
 use lobe_formats::{FormatError, Place};
+use lobe_ops::certificate::DraftError;
 use lobe_render::scene::SceneError;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -42,6 +43,16 @@ impl From<OpenError> for Failure {
                 Failure::Format(FormatError::new(&file, Place::File, found, expected))
             }
             other => Failure::Value(other.to_string()),
+        }
+    }
+}
+
+impl From<DraftError> for Failure {
+    fn from(error: DraftError) -> Self {
+        match error {
+            DraftError::Write(error) => error.into(),
+            DraftError::Read(error) => error.into(),
+            other => Failure::value(other),
         }
     }
 }

@@ -5,14 +5,20 @@ use std::sync::Arc;
 
 use lobe::{Aspect, Lookup, Material, Options, Scatter};
 use lobe_files::check_output;
-use lobe_formats::{ChannelMap, ConvertError, Document, Format, convert, sidecar};
+use lobe_formats::{ChannelMap, ConvertError, Document, Format, RESAMPLED, convert, sidecar};
 use lobe_ops::Subject;
-use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, RemeasureError, Sides, remeasure, resampled_matrices};
+use lobe_ops::certificate::{Certificate, DraftError, Stated};
+use lobe_ops::certify::Certified;
+use lobe_ops::remeasure::{
+    Mapped, MaterialSurface, Nodes, RemeasureError, Sides, refine, remeasure, resampled_matrices,
+};
 use lobe_table::window::klems;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::errors::Failure;
+use crate::operations::class;
 use crate::threads::{self, Watch};
 
 /// The format to write: the given one, or the one of the extension.
@@ -49,13 +55,36 @@ pub struct Wanted<'a> {
     pub resample: bool,
     /// The measurement of a sheet, for a format that has only one of the two.
     pub scatter: Option<Scatter>,
+    /// The largest relative error (root mean square) that is accepted.
+    pub error: Option<f64>,
 }
 
-/// Writes the values and knots unchanged or, if requested, resampled at the nodes of the format.
+/// A file that was written.
+struct Saved {
+    format: Format,
+    /// The nodes at which it was resampled, in words; `None` if values and nodes are unchanged.
+    nodes: Option<String>,
+    /// How the channels were changed; `None` if they were not.
+    note: Option<String>,
+    /// The error, or why it is not known; `None` if there is none.
+    stated: Option<Stated>,
+}
+
+/// Writes the values and knots unchanged or, if requested, resampled at the nodes of the format. Returns an instance of
+/// the class `Saved`.
 ///
 /// # Errors
-/// `ValueError` if the format does not have their representation; `FormatError` if the file cannot be written.
-pub fn save(py: Python<'_>, subject: &Arc<Subject>, path: &Path, wanted: &Wanted<'_>) -> PyResult<()> {
+/// `ValueError` if the format does not have their representation, or the bound of the error is not met; `FormatError` if
+/// the file cannot be written.
+pub fn save<'py>(
+    py: Python<'py>,
+    subject: &Arc<Subject>,
+    path: &Path,
+    wanted: &Wanted<'_>,
+) -> PyResult<Bound<'py, PyAny>> {
+    if let Some(error) = wanted.error.filter(|error| !(*error > 0.0 && error.is_finite())) {
+        return Err(PyValueError::new_err(format!("error: found {error}; expected a number above 0")));
+    }
     let format = target(path, wanted.format)?;
     let sidecar = sidecar::path_of(path);
     if sidecar.exists() {
@@ -66,19 +95,100 @@ pub fn save(py: Python<'_>, subject: &Arc<Subject>, path: &Path, wanted: &Wanted
         )));
     }
     check_output::<&Path>(path, &[]).map_err(Failure::from)?;
-    threads::watched(py, |watch| written(subject, format, path, wanted, watch))??;
-    Ok(())
+    let saved = threads::watched(py, |watch| written(subject, format, path, wanted, watch))??;
+    saved.described(py)
 }
 
-fn written(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>, watch: &Watch) -> Result<(), Failure> {
+impl Saved {
+    fn described<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let largest = |of: &dyn Fn(&Certified) -> f64| match &self.stated {
+            None => Some(0.0),
+            Some(Ok(Certificate(errors))) => Some(errors.iter().map(of).fold(0.0, f64::max)),
+            Some(Err(_)) => None,
+        };
+        let lines: Vec<String> = match &self.stated {
+            Some(Ok(certificate)) => certificate.lines().collect(),
+            _ => Vec::new(),
+        };
+        let unknown = self.stated.as_ref().and_then(|stated| stated.as_ref().err());
+        let keywords = PyDict::new(py);
+        keywords.set_item("format", self.format.spec().word)?;
+        keywords.set_item("exact", self.stated.is_none())?;
+        keywords.set_item("nodes", &self.nodes)?;
+        keywords.set_item("note", &self.note)?;
+        keywords.set_item("max", largest(&|error| error.difference.max))?;
+        keywords.set_item("rms", largest(&|error| error.difference.rms))?;
+        keywords.set_item("relative_rms", largest(&|error| error.difference.relative_rms))?;
+        keywords.set_item("errors", PyTuple::new(py, lines)?)?;
+        keywords.set_item("unknown", unknown.map(ToString::to_string))?;
+        class(py, "Saved")?.call((), Some(&keywords))
+    }
+}
+
+/// The error of a file with the values and nodes of the material; `None` if there is none. There is one if the format
+/// turns the nodes into another representation, whose values between them differ.
+fn interpolated(
+    subject: &Subject,
+    format: Format,
+    channel: Option<&str>,
+    file: &Path,
+) -> Result<Option<Stated>, Failure> {
+    if format.spec().read.is_none() {
+        return Ok(None);
+    }
+    let (_, read) = lobe_formats::open(file)?;
+    if read.kinds() == subject.document.kinds() {
+        return Ok(None);
+    }
+    Ok(Some(Certificate::of_file(subject, channel, file)?))
+}
+
+/// Writes values and nodes unchanged; `None` if the format cannot hold them. If the error is larger than the bound, no
+/// file is written.
+fn kept(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>) -> Result<Option<Saved>, Failure> {
+    let write = |path: &Path| convert(&subject.document, format, wanted.channel, path);
+    if let Some(bound) = wanted.error {
+        let folder = tempfile::tempdir().map_err(|error| Failure::from(DraftError::from(error)))?;
+        let draft = folder.path().join(path.file_name().unwrap_or_default());
+        // What cannot be written is reported below, with the name of the file.
+        if let Ok(Some(_)) = write(&draft)
+            && let Some(stated) = interpolated(subject, format, wanted.channel, &draft)?
+        {
+            let error = bounded(stated, path)?.worst();
+            if error > bound {
+                let found = format!("the error of the unchanged nodes is {error:.3e}");
+                return Err(Failure::Value(format!("{}: {found}; expected {bound} or less", path.display())));
+            }
+        }
+    }
+    let Some(written) = write(path).map_err(unconverted)? else { return Ok(None) };
+    let stated = interpolated(subject, format, wanted.channel, path)?;
+    Ok(Some(Saved { format, nodes: None, note: written.note, stated }))
+}
+
+/// The error that is to be bounded.
+fn bounded(stated: Stated, path: &Path) -> Result<Certificate, Failure> {
+    stated.map_err(|why| {
+        let expected = "a file that can be compared with the material";
+        Failure::Value(format!("{}: found no error to bound ({why}); expected {expected}", path.display()))
+    })
+}
+
+fn written(
+    subject: &Subject,
+    format: Format,
+    path: &Path,
+    wanted: &Wanted<'_>,
+    watch: &Watch,
+) -> Result<Saved, Failure> {
     let kind = subject.material.kind();
     let refuse = |found: &str, expected: &str| {
         Err(Failure::Value(format!("{}: found {found}; expected {expected} in {format}", path.display())))
     };
     if wanted.scatter.is_none_or(|scatter| subject.aspects().iter().all(|aspect| aspect.scatter == scatter))
-        && convert(&subject.document, format, wanted.channel, path).map_err(unconverted)?.is_some()
+        && let Some(saved) = kept(subject, format, path, wanted)?
     {
-        return Ok(());
+        return Ok(saved);
     }
     let Some(writer) = format.writer() else { return refuse("a format that is only read", "one that is written") };
     let kind_of_nodes = match writer.resampled_as {
@@ -129,12 +239,47 @@ fn written(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>, 
     if subject.material.is_polarised() && nodes.are_of_matrices() && wanted.channel.is_some() {
         return refuse("channel=", "matrices of all wavelengths");
     }
-    let document = match resampled_matrices(&subject.document, &nodes).map_err(invalid)? {
-        Some(document) => document,
-        None => remeasure(&surface, true, sides, &nodes, || watch.check()).map_err(invalid)?,
+    let channels = map.channels.count();
+    let at_nodes = |nodes: &Nodes| -> Result<Document, Failure> {
+        let document = match resampled_matrices(&subject.document, nodes).map_err(invalid)? {
+            Some(document) => document,
+            None => remeasure(&surface, true, sides, nodes, || watch.check()).map_err(invalid)?,
+        };
+        let facts = subject.document.source.iter().filter(|(name, _)| name != RESAMPLED).cloned().collect();
+        Ok(Document { source: facts, kept: subject.document.kept.clone(), ..document })
     };
-    let source = subject.document.source.clone();
-    Ok((writer.write)(&Document { source, ..document }, path)?)
+    let stated = |document: &Document| -> Result<Stated, Failure> {
+        watch.check();
+        Ok(Certificate::of_draft(subject, wanted.channel, document, format, path)?)
+    };
+    let (nodes, mut document) = match wanted.error {
+        None => {
+            let document = at_nodes(&nodes)?;
+            (nodes, document)
+        }
+        Some(bound) => {
+            let found = refine(nodes, channels, bound, |nodes| {
+                let document = at_nodes(nodes)?;
+                let error = bounded(stated(&document)?, path)?.worst();
+                Ok::<_, Failure>((document, error))
+            })?;
+            if !found.is_met {
+                return Err(Failure::Value(format!(
+                    "{}: found {:.3e} as the smallest error, with {}; expected {bound} or less",
+                    path.display(),
+                    found.error,
+                    found.nodes
+                )));
+            }
+            (found.nodes, found.measured)
+        }
+    };
+    let stated = stated(&document)?;
+    if let Ok(certificate) = &stated {
+        document.source.push((RESAMPLED.into(), format!("at {nodes}: {}", certificate.line())));
+    }
+    (writer.write)(&document, path)?;
+    Ok(Saved { format, nodes: Some(nodes.to_string()), note: map.note.clone(), stated: Some(stated) })
 }
 
 fn unconverted(error: ConvertError) -> Failure {

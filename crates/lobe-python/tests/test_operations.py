@@ -88,6 +88,51 @@ def test_materials_are_resampled_for_other_formats(conductor, tmp_path):
         merl.save(tmp_path / "gold.ddt", resample=True)
 
 
+def test_the_error_of_a_saved_file_is_the_one_that_compare_finds(conductor, tmp_path):
+    exact = conductor.save(tmp_path / "copy.ssdd")
+    assert (exact.format, exact.exact, exact.nodes, exact.max, exact.rms) == ("ssdd", True, None, 0, 0)
+    assert exact.errors == () and exact.unknown is None
+    file = tmp_path / "gold.bsdf"
+    saved = conductor.save(file, "rgl", resample=True)
+    assert not saved.exact and "theta_i" in saved.nodes and saved.note is None
+    found = conductor.compare(lobe_bsdf.open(file))
+    assert (saved.max, saved.rms, saved.relative_rms) == (found.max, found.rms, found.relative_rms)
+    assert saved.rms > 0 and saved.errors[0].startswith("differs from the source by at most ")
+    # A format that lobe does not read.
+    unread = [format for format in lobe_bsdf.formats() if format.is_written and not format.is_read]
+    for format in unread:
+        try:
+            saved = conductor.save(tmp_path / "unread", format.word, resample=True, channel="G")
+        except ValueError:
+            continue
+        assert saved.exact or (saved.rms is None and "does not read" in saved.unknown)
+
+
+def test_one_channel_in_a_format_of_colours_has_an_error(tmp_path):
+    theta, phi = np.radians(np.linspace(0, 90, 10)), np.radians(np.linspace(0, 360, 13))
+    values = np.random.default_rng(3).uniform(0.1, 0.3, (4, 1, 10, 13, 2)).astype(np.float32)
+    values[..., -1, :] = values[..., 0, :]
+    sigma = np.radians([0.0, 30.0, 60.0, 85.0])
+    spectral = lobe_bsdf.from_samples(values, sigma=sigma, psi=[0.0], theta=2 * theta, phi=phi, wavelengths=[360.0, 550.0])
+    saved = spectral.save(tmp_path / "uv.binary", "merl", resample=True, channel="360nm")
+    assert saved.note == "360nm only, one channel as equal R, G and B"
+    assert 0 < saved.relative_rms < 0.5 and saved.unknown is None
+
+
+def test_nodes_are_refined_until_the_error_is_small_enough(conductor, tmp_path):
+    file = tmp_path / "gold.bsdf"
+    coarse = conductor.save(file, "lighttools", resample=True, channel="G")
+    bound = 0.6 * coarse.relative_rms
+    fine = conductor.save(file, "lighttools", resample=True, channel="G", error=bound)
+    assert fine.relative_rms <= bound and fine.nodes != coarse.nodes
+    before = file.read_bytes()
+    with pytest.raises(ValueError, match="as the smallest error, with .* bins"):
+        conductor.save(file, "merl", resample=True, error=1e-9)
+    assert file.read_bytes() == before
+    with pytest.raises(ValueError, match="error: found"):
+        conductor.save(file, "merl", resample=True, error=0.0)
+
+
 def test_materials_that_cannot_be_saved_are_reported(conductor, tmp_path):
     with pytest.raises(ValueError, match="format: found"):
         conductor.save(tmp_path / "a.ddr", "exr")

@@ -23,7 +23,7 @@ from ._lobe import (
     open,
     render,
 )
-from ._results import Difference, Finding, FormatInfo, Resampling
+from ._results import Difference, Finding, FormatInfo, Resampling, Saved
 
 __all__ = [
     "Difference",
@@ -35,6 +35,7 @@ __all__ = [
     "Picture",
     "Resampling",
     "Sampler",
+    "Saved",
     "SceneError",
     "backends",
     "finished_parts",

@@ -7,7 +7,7 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._results import Difference, Finding, FormatInfo, Resampling
+from ._results import Difference, Finding, FormatInfo, Resampling, Saved
 
 Path = str | PathLike[str]
 Floats = NDArray[np.float32]
@@ -102,8 +102,9 @@ class Material:
         *,
         channel: str | None = None,
         resample: bool = False,
+        error: float | None = None,
         scatter: Scatter | None = None,
-    ) -> None: ...
+    ) -> Saved: ...
 
 class Sampler:
     @property

@@ -68,6 +68,32 @@ class Resampling(NamedTuple):
     """``wi`` and ``wo`` of the largest difference, with z > 0."""
 
 
+class Saved(NamedTuple):
+    """A file that was written, and its error: how much it differs from the material.
+
+    If there are several measurements, the numbers are the largest of them.
+    """
+
+    format: str
+    """The short name of its format."""
+    exact: bool
+    """True if values and nodes were written unchanged, and the file is interpolated as the material is."""
+    nodes: str | None
+    """The nodes at which the material was resampled, in words; None if they are its own."""
+    note: str | None
+    """How channels were changed; None if they were not."""
+    max: float | None
+    """The largest difference, in 1/sr: 0 if ``exact``, None if it is not known."""
+    rms: float | None
+    """The root mean square of the difference, in 1/sr."""
+    relative_rms: float | None
+    """``rms`` relative to the root mean square of the material."""
+    errors: tuple[str, ...]
+    """The error in words, one line per measurement."""
+    unknown: str | None
+    """Why the error is not known; None if it is."""
+
+
 class FormatInfo(NamedTuple):
     """A file format."""
 
