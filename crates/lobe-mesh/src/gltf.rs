@@ -2,8 +2,9 @@
 //!
 //! All meshes of the scene become one mesh, each placed by its node; a group is one primitive of one node, named after
 //! the node. Triangles, strips and fans are read, with positions, normals, tangents and the first set of texture
-//! coordinates, whose v is turned to point up. Points and lines, skins and morph targets are left out. Integers in
-//! place of floats (`KHR_mesh_quantization`) are read; compressed meshes are refused.
+//! coordinates, whose v is turned to point up. Morph targets and skins are applied as the file is at rest: with the weights
+//! and the joints of its nodes, without animations. Points and lines are left out. Integers in place of floats
+//! (`KHR_mesh_quantization`) are read; compressed meshes are refused.
 //!
 //! Section numbers in this module refer to the glTF 2.0 specification.
 
@@ -12,6 +13,7 @@ mod buffers;
 mod document;
 mod primitive;
 mod scene;
+mod skin;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -49,6 +51,9 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Geometry, FormatError> {
     })?;
     if !document.asset.version.starts_with("2.") {
         return Err(wrong(path, format!("glTF version {}", document.asset.version), "2.0"));
+    }
+    if let Some(least) = document.asset.min_version.as_deref().filter(|least| *least != "2.0") {
+        return Err(wrong(path, format!("glTF for readers of version {least}"), "2.0"));
     }
     let unknown = |name: &&String| !KNOWN.iter().any(|known| name.starts_with(known));
     if let Some(extension) = document.extensions_required.iter().find(unknown) {

@@ -68,11 +68,14 @@ impl Source<'_> {
             let found = format!("component type {} in accessor {index}", accessor.component_type);
             return Err(wrong(self.path, found, "5121, 5123 or 5125 for indices"));
         }
+        if accessor.normalized {
+            return Err(wrong(self.path, format!("normalized indices in accessor {index}"), "integers as they are"));
+        }
         // Doubles hold every index exactly.
         Ok(self.numbers::<1>(index, "SCALAR", budget)?.into_iter().map(|[number]| number as u32).collect())
     }
 
-    fn numbers<const N: usize>(
+    pub fn numbers<const N: usize>(
         &self,
         index: usize,
         shape: &str,
@@ -104,7 +107,13 @@ impl Source<'_> {
     ) -> Result<(), FormatError> {
         let Some(sparse) = &accessor.sparse else { return Ok(()) };
         let Region { buffer_view, byte_offset, component_type } = sparse.indices;
-        let places = self.component(component_type.unwrap_or(0), index)?;
+        let places = match component_type {
+            Some(code @ (5121 | 5123 | 5125)) => self.component(code, index)?,
+            other => {
+                let found = format!("component type {} of sparse indices in accessor {index}", other.unwrap_or(0));
+                return Err(wrong(self.path, found, "5121, 5123 or 5125"));
+            }
+        };
         let places = self.run::<1>(buffer_view, byte_offset, places, false, sparse.count, index)?;
         let Region { buffer_view, byte_offset, .. } = sparse.values;
         let values = self.run(buffer_view, byte_offset, component, accessor.normalized, sparse.count, index)?;

@@ -16,6 +16,8 @@ pub(super) struct Document {
     #[serde(default)]
     pub meshes: Vec<Mesh>,
     #[serde(default)]
+    pub skins: Vec<Skin>,
+    #[serde(default)]
     pub materials: Vec<Named>,
     #[serde(default)]
     pub accessors: Vec<Accessor>,
@@ -26,8 +28,10 @@ pub(super) struct Document {
 }
 
 #[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct Asset {
     pub version: String,
+    pub min_version: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -42,6 +46,9 @@ pub(super) struct Node {
     #[serde(default)]
     pub children: Vec<usize>,
     pub mesh: Option<usize>,
+    pub skin: Option<usize>,
+    /// Of the mesh's morph targets.
+    pub weights: Option<Vec<f64>>,
     /// Column by column.
     pub matrix: Option<[f64; 16]>,
     pub translation: Option<[f64; 3]>,
@@ -54,6 +61,15 @@ pub(super) struct Node {
 pub(super) struct Mesh {
     pub name: Option<String>,
     pub primitives: Vec<Primitive>,
+    /// Of its morph targets, unless the node has its own.
+    pub weights: Option<Vec<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    pub inverse_bind_matrices: Option<usize>,
+    pub joints: Vec<usize>,
 }
 
 #[derive(Deserialize)]
@@ -62,6 +78,17 @@ pub(super) struct Primitive {
     pub indices: Option<usize>,
     pub material: Option<usize>,
     pub mode: Option<u32>,
+    /// Displacements of positions, normals and tangents.
+    #[serde(default)]
+    pub targets: Vec<Target>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub(super) struct Target {
+    pub position: Option<usize>,
+    pub normal: Option<usize>,
+    pub tangent: Option<usize>,
 }
 
 #[derive(Deserialize)]
@@ -72,6 +99,12 @@ pub(super) struct Attributes {
     pub tangent: Option<usize>,
     #[serde(rename = "TEXCOORD_0")]
     pub texcoord: Option<usize>,
+    #[serde(rename = "JOINTS_0")]
+    pub joints: Option<usize>,
+    #[serde(rename = "JOINTS_1")]
+    pub more_joints: Option<usize>,
+    #[serde(rename = "WEIGHTS_0")]
+    pub weights: Option<usize>,
 }
 
 #[derive(Deserialize)]

@@ -4,7 +4,7 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 use lobe_files::FormatError;
 
 use super::document::{Mesh, Node};
-use super::{Budget, Source};
+use super::{Budget, Source, skin};
 use crate::file::{self, wrong};
 use crate::geometry::{narrow, wide};
 use crate::{Geometry, Group, Parts, normals};
@@ -12,12 +12,27 @@ use crate::{Geometry, Group, Parts, normals};
 /// Puts the meshes of the scene together.
 pub(super) fn assemble(source: &Source<'_>, mut budget: Budget<'_>) -> Result<Geometry, FormatError> {
     let mut whole = Parts::default();
-    for (node, place) in placed(source)? {
+    let placed = placed(source)?;
+    let mut nodes = vec![None; source.document.nodes.len()];
+    placed.iter().for_each(|placed| nodes[placed.node] = Some(placed.place));
+    for &Placed { node: index, place } in &placed {
+        let node = &source.document.nodes[index];
         let Some(mesh) = node.mesh else { continue };
         let mesh = source.item(&source.document.meshes, mesh, "mesh")?;
+        let shares = node.weights.as_ref().or(mesh.weights.as_ref()).map_or(&[][..], Vec::as_slice);
         for primitive in &mesh.primitives {
-            let Some(mut parts) = source.primitive(primitive, &mut budget)? else { continue };
-            transform(&mut parts, place);
+            let Some(mut parts) = source.primitive(primitive, shares, &mut budget)? else { continue };
+            match node.skin {
+                None => transform(&mut parts, |_| place),
+                Some(skin) => {
+                    let places = skin::places(source, skin, &primitive.attributes, &nodes, &mut budget)?;
+                    if places.len() != parts.positions.len() {
+                        let found = format!("joints of {} vertices of {}", places.len(), parts.positions.len());
+                        return Err(wrong(source.path, found, "those of each vertex"));
+                    }
+                    transform(&mut parts, |vertex| places[vertex]);
+                }
+            }
             let material = match primitive.material {
                 Some(index) => {
                     let material = source.item(&source.document.materials, index, "material")?;
@@ -37,8 +52,15 @@ fn name(node: &Node, mesh: &Mesh) -> String {
     node.name.clone().or_else(|| mesh.name.clone()).unwrap_or_default()
 }
 
-/// All nodes of the scene with their transforms to scene coordinates, parents first.
-fn placed<'a>(source: &Source<'a>) -> Result<Vec<(&'a Node, DMat4)>, FormatError> {
+/// A node of the scene and its transform to scene coordinates.
+#[derive(Clone, Copy)]
+struct Placed {
+    node: usize,
+    place: DMat4,
+}
+
+/// All nodes of the scene, parents first.
+fn placed(source: &Source<'_>) -> Result<Vec<Placed>, FormatError> {
     let nodes = &source.document.nodes;
     let mut stack: Vec<(usize, DMat4)> = roots(source)?.into_iter().rev().map(|root| (root, DMat4::IDENTITY)).collect();
     let mut seen = vec![false; nodes.len()];
@@ -50,7 +72,7 @@ fn placed<'a>(source: &Source<'a>) -> Result<Vec<(&'a Node, DMat4)>, FormatError
         }
         let place = parent * local(node);
         stack.extend(node.children.iter().rev().map(|&child| (child, place)));
-        placed.push((node, place));
+        placed.push(Placed { node: index, place });
     }
     Ok(placed)
 }
@@ -80,26 +102,29 @@ fn local(node: &Node) -> DMat4 {
     DMat4::from_scale_rotation_translation(scale, rotation, node.translation.map_or(DVec3::ZERO, DVec3::from_array))
 }
 
-/// Transforms a mesh to its place. A reflection reverses the orientation of triangles and frames.
-fn transform(parts: &mut Parts, place: DMat4) {
-    for position in &mut parts.positions {
-        *position = narrow(place.transform_point3(wide(*position)));
+/// Transforms each vertex to its place. A reflection reverses the orientation of triangles and frames.
+fn transform(parts: &mut Parts, place: impl Fn(usize) -> DMat4) {
+    for (vertex, position) in parts.positions.iter_mut().enumerate() {
+        *position = narrow(place(vertex).transform_point3(wide(*position)));
     }
-    let linear = DMat3::from_mat4(place);
-    let mirrored = linear.determinant() < 0.0;
-    // The inverse transpose up to scale, which also exists if a mesh is squashed flat.
-    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
-    let sign = if mirrored { -1.0 } else { 1.0 };
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-    for normal in parts.normals.iter_mut().flatten() {
+    let linear = |vertex: usize| DMat3::from_mat4(place(vertex));
+    let sign = |linear: &DMat3| if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    for (vertex, normal) in parts.normals.iter_mut().flatten().enumerate() {
+        let linear = linear(vertex);
+        // The inverse transpose up to scale, which also exists if a mesh is squashed flat.
+        let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+        let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign(&linear);
         *normal = narrow((cofactors * wide(*normal)).normalize_or_zero());
     }
-    for [x, y, z, w] in parts.tangents.iter_mut().flatten() {
+    for (vertex, [x, y, z, w]) in parts.tangents.iter_mut().flatten().enumerate() {
+        let linear = linear(vertex);
         [*x, *y, *z] = narrow((linear * wide([*x, *y, *z])).normalize_or_zero());
-        *w *= sign as f32;
+        *w *= sign(&linear) as f32;
     }
-    if mirrored {
-        parts.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    for triangle in &mut parts.triangles {
+        if linear(triangle[0] as usize).determinant() < 0.0 {
+            triangle.swap(1, 2);
+        }
     }
 }
 

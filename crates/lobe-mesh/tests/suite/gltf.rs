@@ -128,6 +128,11 @@ fn errors_say_what_is_wrong() {
         (r#""scene": 0"#, r#""extensionsRequired": ["KHR_draco_mesh_compression"]"#, "KHR_draco_mesh_compression"),
         (r#""scale": [-2, 2, 2]"#, r#""scale": [1e300, 2, 2]"#, "inf in the position of vertex"),
         (r#""mesh": 0"#, r#""camera": 0"#, "no triangles"),
+        (r#""version": "2.0""#, r#""version": "2.1", "minVersion": "2.1""#, "readers of version 2.1"),
+        (r#""indices": 3"#, r#""indices": 3, "mode": 7"#, "mode 7"),
+        (r#""count": 6"#, r#""count": 6, "normalized": true"#, "normalized indices in accessor 3"),
+        (r#"{"bufferView": 0, "componentType""#, r#"{"componentType""#, "no positions in accessor 0"),
+        (r#""mesh": 0, "scale""#, r#""skin": 0, "mesh": 0, "scale""#, "skin 0"),
         ("base64,", "base64,!", "the data uri of buffer 0"),
     ];
     for (from, to, found) in cases {
@@ -175,4 +180,53 @@ fn strips_fans_and_sparse_accessors() {
     assert_eq!(parse(&sparse).expect("a sparse accessor").positions[..3], [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
     let outside = sparse.replace(r#""byteOffset": 2,"#, r#""byteOffset": 128,"#);
     assert!(parse(&outside).is_err());
+}
+
+/// A morph target that moves the square by its own positions, and a skin of two joints.
+#[test]
+fn morph_targets_and_skins_are_applied_at_rest() {
+    let targets = r#""indices": 3, "targets": [{"POSITION": 0}, {"POSITION": 1}]"#;
+    let morphed = text().replace(r#""indices": 3"#, targets);
+    let rest = parse(&text()).expect("a mesh");
+    assert_eq!(parse(&morphed).expect("without weights"), rest);
+    let of_mesh = morphed.replace(r#""meshes": [{"#, r#""meshes": [{"weights": [0.5, 2.0], "#);
+    let mesh = parse(&of_mesh).expect("weights of the mesh");
+    assert_eq!(mesh.positions[2], [1.5, 1.5, 2.0]);
+    let of_node = of_mesh.replace(r#"{"name": "first", "#, r#"{"name": "first", "weights": [0.0, -1.0], "#);
+    assert_eq!(parse(&of_node).expect("weights of a node").positions[2], [1.0, 1.0, -1.0]);
+
+    // The first two vertices follow node 2, the others are halfway between it and the parent, node 1.
+    let mut bytes = buffer();
+    for joints in [[0u8, 0, 0, 0], [0, 0, 0, 0], [0, 1, 0, 0], [0, 1, 0, 0]] {
+        bytes.extend(joints);
+    }
+    for weights in [[255u8, 0, 0, 0], [255, 0, 0, 0], [100, 100, 0, 0], [100, 100, 0, 0]] {
+        bytes.extend(weights);
+    }
+    let uri = format!("data:;base64,{}", STANDARD.encode(&bytes));
+    let skinned = json(Some(&uri))
+        .replace(r#""byteLength": 140}]"#, r#""byteLength": 172}]"#)
+        .replace(r#""byteOffset": 128, "byteLength": 12}"#, r#""byteOffset": 128, "byteLength": 44}"#)
+        .replace(
+            r#""count": 6, "type": "SCALAR"}"#,
+            r#""count": 6, "type": "SCALAR"},
+            {"bufferView": 1, "byteOffset": 12, "componentType": 5121, "count": 4, "type": "VEC4"},
+            {"bufferView": 1, "byteOffset": 28, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4"}"#,
+        )
+        .replace(r#""TEXCOORD_0": 2"#, r#""TEXCOORD_0": 2, "JOINTS_0": 4, "WEIGHTS_0": 5"#)
+        .replace(r#"{"name": "first", "#, r#"{"name": "first", "skin": 0, "translation": [9, 9, 9], "#)
+        .replace(r#""materials""#, r#""skins": [{"joints": [2, 1]}], "materials""#);
+    let mesh = parse(&skinned).expect("a skin");
+    // Node 2: (-2x, 2y, 2z + 5). Node 1: (x, y, z + 5). The place of the mesh's own node does not count.
+    assert_eq!(mesh.positions[..4], [[0.0, 0.0, 5.0], [-2.0, 0.0, 5.0], [-0.5, 1.5, 5.0], [0.0, 1.5, 5.0]]);
+    assert_eq!(mesh.positions[4..], rest.positions[4..]);
+    for (from, to, found) in [
+        (r#""joints": [2, 1]"#, r#""joints": [2]"#, "joint 1 of vertex 2"),
+        (r#""joints": [2, 1]"#, r#""joints": [2, 9]"#, "joint 9 of skin 0"),
+        (r#", "WEIGHTS_0": 5"#, "", "a mesh of skin 0"),
+        (r#""WEIGHTS_0": 5"#, r#""WEIGHTS_0": 5, "JOINTS_1": 4"#, "a mesh of skin 0"),
+    ] {
+        let error = parse(&skinned.replace(from, to)).expect_err(to);
+        assert!(error.to_string().contains(found), "{error}");
+    }
 }
