@@ -122,6 +122,25 @@ fn backward(data: &dyn Representation, part: &str) -> Option<Finding> {
     })
 }
 
+/// What is said of data with one outgoing direction for each incident one.
+pub(super) const ONE_VIEW: &str =
+    "only one outgoing direction was measured for each incident one, which is used for all others";
+
+/// `true` if there is one outgoing direction for each incident one.
+pub(super) fn has_one_view(data: &dyn Representation) -> bool {
+    let Some(samples) = data.samples() else { return false };
+    let mut lights = BTreeSet::new();
+    let mut samples = samples.map(|(angles, _)| [angles[0], angles[1]].map(f64::to_bits));
+    samples.all(|light| lights.insert(light))
+}
+
+/// The polar angle of the light in degrees, if it is the only one.
+pub(super) fn only_light(data: &dyn Representation) -> Option<String> {
+    let mut samples = data.samples()?.map(|([theta, ..], _)| theta);
+    let first = samples.next()?;
+    samples.all(|theta| (theta - first).abs() < 1e-6).then(|| degrees(first))
+}
+
 /// The sectors of outgoing directions that are counted: 15 degrees of polar angle by 30 of azimuth.
 const RINGS: usize = 6;
 const SECTORS: usize = 12;
@@ -212,6 +231,9 @@ fn of_samples(data: &dyn Representation, part: &str) -> Vec<Finding> {
     findings.push(
         Finding::new("coverage", part, status, text).number("sectors", least as f64).number("of", sectors.all as f64),
     );
+    if has_one_view(data) {
+        findings.push(Finding::new("coverage", part, Status::Warn, ONE_VIEW.into()));
+    }
     findings.extend(backward(data, part));
     findings
 }

@@ -36,6 +36,13 @@ impl<'a> Grid<'a> {
         &self.values[at * self.channels..][..self.channels]
     }
 
+    /// The polar angle of the light in degrees, if it is the only one; `None` also if there is only one value for all
+    /// directions, which is a statement about all angles.
+    pub(super) fn only_light(&self) -> Option<String> {
+        let [light, _, viewer, azimuths] = self.knots.each_ref().map(Vec::len);
+        (light == 1 && (viewer > 1 || azimuths > 1)).then(|| degrees(self.knots[0][0]))
+    }
+
     /// Every pair of knots of the light.
     pub(super) fn lights(&self) -> impl Iterator<Item = [usize; 2]> + use<'_> {
         (0..self.knots[0].len()).flat_map(|polar| (0..self.knots[1].len()).map(move |azimuth| [polar, azimuth]))
@@ -52,12 +59,23 @@ impl<'a> Grid<'a> {
         let [light, .., viewer, _] = self.knots;
         let (first, last) = (light[0], light[light.len() - 1]);
         if last < FRAC_PI_2 - 0.01 || first > 0.01 {
-            let text = format!(
-                "light was measured only from {} to {} degrees; beyond, the nearest measurement is used",
-                degrees(first),
-                degrees(last)
-            );
-            let finding = Finding::new("coverage", part, Status::Note, text);
+            let (status, text) = match self.only_light() {
+                Some(theta) => (
+                    Status::Warn,
+                    format!(
+                        "light at only one polar angle, {theta} degrees, which is used for all others. One angle of incidence says nothing about the others"
+                    ),
+                ),
+                None => (
+                    Status::Note,
+                    format!(
+                        "light was measured only from {} to {} degrees; beyond, the nearest measurement is used",
+                        degrees(first),
+                        degrees(last)
+                    ),
+                ),
+            };
+            let finding = Finding::new("coverage", part, status, text);
             findings.push(finding.number("first", first.to_degrees()).number("last", last.to_degrees()));
         }
         let reach = viewer[viewer.len() - 1];

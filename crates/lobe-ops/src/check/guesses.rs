@@ -25,16 +25,28 @@ pub fn guesses(document: &Document) -> Vec<String> {
             );
             push(name.clone(), &text);
         }
-        if incidences == 1 {
-            push(name, "light came from only one direction, which is used for all others");
+        if coverage::has_one_view(data) {
+            push(name.clone(), coverage::ONE_VIEW);
+        }
+        match (incidences, coverage::only_light(data)) {
+            (1, _) => push(name, "light came from only one direction, which is used for all others"),
+            (_, Some(theta)) => push(name, &one_light(&theta)),
+            _ => {}
         }
     }
     for (part, grid) in grids(document) {
         if azimuths::is_in_plane(&grid) {
-            push(part, IN_PLANE);
+            push(part.clone(), IN_PLANE);
+        }
+        if let Some(theta) = grid.only_light() {
+            push(part, &one_light(&theta));
         }
     }
     found
+}
+
+fn one_light(theta: &str) -> String {
+    format!("light came at only one polar angle, {theta} degrees, which is used for all others")
 }
 
 const IN_PLANE: &str = "measured only in the plane of incidence, and guessed everywhere else";

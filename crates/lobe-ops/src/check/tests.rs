@@ -165,6 +165,15 @@ fn sparse_samples_are_not_a_failure() {
     assert!(guesses(&one)[0].contains("only one direction"), "{:?}", guesses(&one));
     assert_found(&all_of(one), Status::Warn, "light from one direction, at 30 degrees, which is used for all others");
 
+    let viewer: Vec<[f64; 4]> = (0..60).map(|i| [f64::from(i), 0.0, 45.0, 180.0]).collect();
+    let viewer = scattered(&viewer, |_| 0.36);
+    assert!(guesses(&viewer)[1].contains("only one outgoing direction"), "{:?}", guesses(&viewer));
+    assert_found(&all_of(viewer), Status::Warn, "only one outgoing direction");
+    let turned: Vec<[f64; 4]> = (0..6)
+        .flat_map(|i| around(&[30.0]).into_iter().map(move |[a, _, c, d]| [a, 30.0 * f64::from(i), c, d]))
+        .collect();
+    let turned = guesses(&scattered(&turned, |_| 0.3));
+    assert!(turned.len() == 1 && turned[0].contains("only one polar angle, 30 degrees"), "{turned:?}");
     let whole = scattered(&around(&[0.0, 30.0, 60.0, 75.0]), |_| 0.36);
     assert_eq!(guesses(&whole), Vec::<String>::new());
     let all = all_of(whole);
@@ -172,6 +181,15 @@ fn sparse_samples_are_not_a_failure() {
     assert_found(&all, Status::Fail, "4 of 4 above 1");
     assert_eq!(guesses(&Document::new(table(&[0.0, 180.0], |_, _, _| 0.1))).len(), 1);
     assert_eq!(guesses(&Document::new(table(&CIRCLE, |_, _, _| 0.1))).len(), 0);
+    let knots = [radians(&[30.0]), vec![0.0], radians(&THETAS), radians(&CIRCLE)];
+    let values = vec![0.1; THETAS.len() * CIRCLE.len()];
+    let one = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, values).expect("a table");
+    assert_eq!(guesses(&Document::new(one.clone())).len(), 1);
+    assert_found(&all_of(Document::new(one)), Status::Warn, "light at only one polar angle, 30 degrees");
+    // One value for all directions is not a guess.
+    let knots = std::array::from_fn(|_| vec![0.0]);
+    let lambert = specular::Data::new(Scatter::Reflection, knots, Channels::Mono, vec![0.1]).expect("a table");
+    assert_eq!(guesses(&Document::new(lambert)).len(), 0);
 }
 
 #[test]
