@@ -4,10 +4,13 @@ use std::collections::HashMap;
 
 use lobe_table::window::klems::{AngleBasis, Ring};
 
+/// In degrees. A basis that ends lower leaves directions near the horizon without a value.
+const WHOLE: f64 = 89.9;
+
 /// Collects `AngleBasis` elements of a `DataDefinition`.
 #[derive(Default)]
 pub(super) struct BasisReader {
-    /// By name in lower case; of several with the same name, the first.
+    /// By name in lower case.
     known: HashMap<String, AngleBasis>,
     name: String,
     rings: Vec<Ring>,
@@ -39,11 +42,17 @@ impl BasisReader {
             "AngleBasis" => {
                 let (name, rings) = (std::mem::take(&mut self.name), std::mem::take(&mut self.rings));
                 // Trees name their basis here, without rings.
-                if !rings.is_empty() {
+                if let Some(last) = rings.last().map(|ring| ring.upper) {
                     let key = name.to_ascii_lowercase();
                     let basis = AngleBasis::new(name, rings);
                     let basis = basis.map_err(|error| (error.to_string(), "the rings of a hemisphere"))?;
-                    self.known.entry(key).or_insert(basis);
+                    // Such as radians.
+                    if last < WHOLE {
+                        return Err((format!("rings up to {last}"), "rings up to 90, in degrees"));
+                    }
+                    if *self.known.entry(key).or_insert_with(|| basis.clone()) != basis {
+                        return Err((format!("another basis {:?}", basis.name()), "each name for one basis"));
+                    }
                 }
             }
             _ => {}

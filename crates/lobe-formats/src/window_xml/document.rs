@@ -34,7 +34,7 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
 }
 
 /// The order of the values of a block.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Structure {
     /// Exit patch by exit patch.
     Columns,
@@ -69,6 +69,9 @@ pub(super) struct Document<'a> {
     structure: Option<Structure>,
     basis: BasisReader,
     wavelength: String,
+    /// The number of layers that began, and the one whose values were read.
+    layer: usize,
+    layer_of_values: Option<usize>,
     /// `true` if the element is within a block, which is then the last one.
     is_in_block: bool,
     blocks: Vec<BlockText<'a>>,
@@ -103,6 +106,8 @@ impl<'a> Document<'a> {
             structure: None,
             basis: BasisReader::default(),
             wavelength: String::new(),
+            layer: 0,
+            layer_of_values: None,
             is_in_block: false,
             blocks: Vec::new(),
             first_block: 0,
@@ -208,6 +213,7 @@ impl<'a> Document<'a> {
 
     fn open(&mut self, name: &str, start: usize) {
         match name {
+            "Layer" => self.layer += 1,
             "WavelengthData" => {
                 self.wavelength.clear();
                 self.first_block = self.blocks.len();
@@ -241,7 +247,11 @@ impl<'a> Document<'a> {
                     let expected = "Columns, Rows, TensorTree3 or TensorTree4";
                     self.error(start, format!("IncidentDataStructure {content:?}"), expected)
                 })?;
-                self.structure = Some(structure);
+                // It applies to all blocks, those before it as well.
+                if self.structure.replace(structure).is_some_and(|before| before != structure) {
+                    let expected = "the same as before: one for the file";
+                    return Err(self.error(start, format!("another IncidentDataStructure, {content:?}"), expected));
+                }
             }
             "WavelengthData" => {
                 let wavelength: Rc<str> = self.wavelength.as_str().into();
@@ -259,12 +269,16 @@ impl<'a> Document<'a> {
         let direction = match name {
             "WavelengthDataBlock" => {
                 self.is_in_block = false;
+                let layer = *self.layer_of_values.get_or_insert(self.layer);
+                if layer != self.layer {
+                    let start = self.blocks.last().map_or(start, |block| block.start);
+                    return Err(self.error(start, "values of a second Layer", "one layer in a file"));
+                }
                 return Ok(());
             }
             "WavelengthDataDirection" => {
-                let names = ["transmission front", "transmission back", "reflection front", "reflection back"];
-                let wanted = content.split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_lowercase();
-                let index = names.iter().position(|name| *name == wanted).ok_or_else(|| {
+                let wanted = content.split_whitespace().collect::<Vec<_>>().join(" ");
+                let index = NAMES.iter().position(|name| name.eq_ignore_ascii_case(&wanted)).ok_or_else(|| {
                     let expected = "Transmission or Reflection, Front or Back";
                     self.error(start, format!("WavelengthDataDirection {:?}", content.trim()), expected)
                 })?;
@@ -303,7 +317,7 @@ impl<'a> Document<'a> {
             bands.len() - 1
         });
         if bands[band].window.set(direction, component).is_some() {
-            let found = format!("a second {direction:?} of {wavelength}");
+            let found = format!("a second {} of {wavelength}", spelled(direction));
             return Err(self.error(block.start, found, "each block once in a band"));
         }
         Ok(())
@@ -350,6 +364,13 @@ impl<'a> Document<'a> {
     fn tree(&self, rank: Rank, content: &str, start: usize) -> Result<TensorTree, FormatError> {
         tree::parse(rank, content).map_err(|error| self.error(start + error.at, error.found, error.expected))
     }
+}
+
+/// The names of the blocks, in the order of [`Block::ALL`].
+const NAMES: [&str; 4] = ["Transmission Front", "Transmission Back", "Reflection Front", "Reflection Back"];
+
+fn spelled(block: Block) -> &'static str {
+    Block::ALL.iter().position(|other| *other == block).map_or("block", |index| NAMES[index])
 }
 
 fn append<'a>(content: &mut Cow<'a, str>, more: Cow<'a, str>) {

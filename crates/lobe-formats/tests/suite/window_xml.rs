@@ -87,8 +87,28 @@ fn errors_name_the_line() {
     refused(
         &format!("{head}{data}{data}</Layer></Optical></WindowElement>"),
         Place::Line(12),
-        "a second ReflectionBack",
+        "a second Reflection Back",
     );
+}
+
+/// What a file states twice must be the same, and its rings must cover the hemisphere.
+#[test]
+fn contradictions_and_radians_are_refused() {
+    let text = sheet("Rows", NINE);
+    let again = |change: &dyn Fn(String) -> String| {
+        let definition =
+            &text[text.find("<DataDefinition>").expect("a definition")..text.find("<WavelengthData>").expect("data")];
+        text.replace("<WavelengthData>", &format!("{}<WavelengthData>", change(definition.to_string())))
+    };
+    assert_eq!(values(&again(&|same| same)), values(&text));
+    refused(&again(&|same| same.replace("Rows", "Columns")), Place::Line(5), "another IncidentDataStructure");
+    refused(&again(&|same| same.replace(">30<", ">40<")), Place::Line(5), "another basis \"mine\"");
+    refused(&text.replace(">30<", ">0.6<").replace(">90<", ">1.5708<"), Place::Line(4), "rings up to 1.5708");
+    refused(&text.replace(">90<", ">80<"), Place::Line(4), "rings up to 80");
+    let data = &text[text.find("<WavelengthData>").expect("data")..text.find("</Layer>").expect("an end")];
+    let second = format!("</Layer><Layer>{}</Layer>", data.replace("Reflection", "Transmission"));
+    refused(&text.replace("</Layer>", &second), Place::Line(11), "values of a second Layer");
+    assert_eq!(values(&text.replace("</Layer>", "</Layer><Layer><Material/></Layer>")), values(&text));
 }
 
 #[test]
