@@ -84,7 +84,7 @@ fn read_tables(
     let mut tables = Vec::new();
     for rotation in rotations {
         for &theta in &rotation.incidences {
-            tables.push((rotation.phi, theta, Table::read(source, is_intensity)?));
+            tables.push((rotation.phi, theta, Table::read(source, is_intensity, scatter)?));
         }
     }
     let scale = scale(&tables, spectrum);

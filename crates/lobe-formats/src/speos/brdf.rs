@@ -29,10 +29,17 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Sides<scattered::Data>, Fo
         for &theta_i in &incidences {
             for &nm in &wavelengths {
                 let percentage = source.number("a percentage")?;
-                let table = Table::read(source, is_intensity)?;
+                let table = Table::read(source, is_intensity, scatter)?;
                 let integral = table.integral();
                 // A table without light stays 0, whatever the percentage.
-                let scale = if integral > 0.0 { percentage / 100.0 / integral } else { 0.0 };
+                let scale = match integral > 0.0 {
+                    true => percentage / 100.0 / integral,
+                    false if table.is_black() => 0.0,
+                    false => {
+                        let found = format!("a table whose integral is {integral}");
+                        return Err(source.error(found, "a positive integral, which the percentage scales"));
+                    }
+                };
                 for (theta_o, phi, f) in table.samples(scale) {
                     samples.push(nm, [theta_i, 0.0, theta_o, phi + PI], f);
                 }

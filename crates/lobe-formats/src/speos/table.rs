@@ -3,11 +3,15 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use lobe_table::Scatter;
+
 use crate::lines::shown;
 use crate::{FormatError, Place};
 
 /// Below this cosine, an intensity cannot be distinguished from the error of dividing by it.
 const LEAST_COSINE: f64 = 1e-3;
+/// In degrees.
+const ROUNDING: f64 = 1e-3;
 
 /// A text that is read line by line in its head and number by number after it.
 pub(super) struct Source<'a> {
@@ -96,15 +100,25 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Reads the counts, the azimuths, and a row per polar angle.
-    pub(super) fn read(source: &mut Source<'_>, is_intensity: bool) -> Result<Self, FormatError> {
+    /// Reads the counts, the azimuths, and a row per polar angle. Those of reflected light are up to 90 degrees; all of
+    /// transmitted light are on one side.
+    pub(super) fn read(source: &mut Source<'_>, is_intensity: bool, scatter: Scatter) -> Result<Self, FormatError> {
         let (rows, columns) = (source.count("the number of polar angles")?, source.count("the number of azimuths")?);
         let phis: Vec<f64> = source.list(columns, "an azimuth")?.into_iter().map(f64::to_radians).collect();
         let (mut thetas, mut values) = (Vec::new(), Vec::new());
+        let (mut is_before, mut is_beyond) = (false, false);
         for _ in 0..rows {
             let theta = source.number("a polar angle")?;
             if !(0.0..=180.0).contains(&theta) {
                 return Err(source.error(format!("polar angle {theta}"), "0 to 180 degrees"));
+            }
+            is_beyond |= theta > 90.0 + ROUNDING;
+            is_before |= theta < 90.0 - ROUNDING;
+            if is_beyond && (is_before || scatter == Scatter::Reflection) {
+                let expected = "reflected light up to 90 degrees, and transmitted light on one side of 90";
+                return Err(
+                    source.error(format!("polar angle {theta} in a table of {scatter:?}").to_lowercase(), expected)
+                );
             }
             let theta = theta.to_radians();
             thetas.push(theta.min(PI - theta));
