@@ -12,6 +12,7 @@
 use crate::Document;
 use crate::Sides;
 use crate::bytes::Cursor;
+use crate::facts::Facts;
 use crate::spec::{FormatSpec, Writer, either, resampled, unfit};
 use lobe_files::FormatError;
 use lobe_files::{unwritable, write_whole};
@@ -26,7 +27,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "mbsdf",
     extensions: &["mbsdf"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?.into_parts()).with_facts(facts(bytes)))),
     read_set: None,
     writer: Some(Writer {
         extensions: &["mbsdf"],
@@ -115,6 +116,14 @@ pub fn read_with(bytes: &[u8], file: &Path, nodes: [Nodes; 2]) -> Result<Sides<s
         b"" | b"\n" => Ok(sides),
         rest => Err(cursor.error(format!("{} bytes more", rest.len()), "the end of the file")),
     }
+}
+
+/// The lines of metadata.
+fn facts(bytes: &[u8]) -> Facts {
+    let lines = bytes.split_inclusive(|&byte| byte == b'\n').skip(1);
+    let text = lines.take_while(|line| ![DATA, REFLECTION, TRANSMISSION].contains(line));
+    let text = text.map(|line| String::from_utf8_lossy(line.trim_ascii()).into_owned());
+    text.filter(|line| !line.is_empty()).map(|line| ("metadata".into(), line)).collect()
 }
 
 /// Skips the metadata, and returns the first heading.

@@ -21,7 +21,7 @@ pub(crate) static FORMAT: FormatSpec = FormatSpec {
     word: "ssdd",
     extensions: &["ssdd"],
     matches,
-    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?))),
+    read: Some(|bytes, path, _| Ok(Document::of_parts(read(bytes, path)?).with_facts(read::facts(bytes)))),
     read_set: None,
     writer: Some(Writer {
         extensions: &["ssdd"],

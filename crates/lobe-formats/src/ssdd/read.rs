@@ -5,6 +5,7 @@ use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter, mirror, specular, spherical};
 
+use crate::facts::Facts;
 use crate::lines::shown;
 use crate::{FormatError, Part, Place};
 
@@ -49,6 +50,24 @@ pub fn read(bytes: &[u8], file: &Path) -> Result<Vec<Part>, FormatError> {
         return Err(source.error("the end of the file", "DATA and values"));
     }
     Ok(blocks)
+}
+
+/// The comments, and the lines with keys of people and programs, above the first values.
+pub(super) fn facts(bytes: &[u8]) -> Facts {
+    const READ: [&str; 7] =
+        ["VERSION", "DATA_TYPE", "COLOR_MODEL", "WAVELENGTH_LIST", "PARAM_TYPE", "REDUCTION_TYPE", "NAME"];
+    let lines = bytes.split(|&byte| byte == b'\n').map(|line| String::from_utf8_lossy(line.trim_ascii()));
+    let mut facts = Facts::new();
+    for line in lines.take_while(|line| line.split_whitespace().next() != Some("DATA")) {
+        let (key, value) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
+        match line.strip_prefix('#').map(str::trim) {
+            Some("") => {}
+            Some(comment) => facts.push(("comment".into(), comment.into())),
+            None if READ.contains(&key) || key.starts_with("PARAM") || value.trim().is_empty() => {}
+            None => facts.push((key.into(), value.trim().into())),
+        }
+    }
+    facts
 }
 
 struct Source<'a> {
