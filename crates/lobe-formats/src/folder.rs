@@ -39,7 +39,7 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
     let found = found.and_then(|(format, files)| Some((format, files, format.spec().read_set?)));
     let Some((format, files, read_set)) = found else {
         let names: Vec<&str> = sets().map(|(format, _)| format.name()).collect();
-        let mut expected = format!("files of a format with one incident direction per file: {}", names.join(" or "));
+        let mut expected = format!("files of one incident direction each ({})", names.join(" or "));
         others.sort_unstable();
         others.dedup();
         let found = match others.is_empty() {
@@ -47,7 +47,11 @@ pub(crate) fn open(folder: &Path) -> Result<(Format, Document), FormatError> {
             false => format!("a folder with files of other formats ({})", others.join(", ")),
         };
         if !others.is_empty() {
-            expected += ", or a single file; tables can be joined into one with a column of theta_i";
+            expected += ", or one of the files by its own name";
+        }
+        if others.contains(&Format::Goniometer.name()) {
+            expected +=
+                "; tables of one incident direction each have to be joined into one table, with a column theta_i";
         }
         return Err(FormatError::new(folder, Place::File, found, expected));
     };

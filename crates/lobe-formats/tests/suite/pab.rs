@@ -91,10 +91,15 @@ fn folders_are_one_material_for_any_quantity() {
     }
     let empty = tempfile::tempdir().expect("a folder");
     let error = open(empty.path()).map(|_| ()).expect_err("nothing").to_string();
-    assert!(error.contains("RPC Photonics or pab"), "{error}");
+    assert!(error.contains("without measurements; expected files of one incident direction each (RPC"), "{error}");
+    assert!(error.contains("RPC Photonics or pab") && !error.contains("joined"), "{error}");
     std::fs::write(empty.path().join("30.csv"), "AOI: 30 deg\ntheta_o,phi_o,BRDF\n0,0,1\n10,0,1\n").expect("a file");
     let error = open(empty.path()).map(|_| ()).expect_err("tables").to_string();
-    assert!(error.contains("table with named columns") && error.contains("a column of theta_i"), "{error}");
+    for part in
+        ["other formats (table with named columns)", "by its own name", "joined into one table, with a column theta_i"]
+    {
+        assert!(error.contains(part), "{part}: {error}");
+    }
 }
 
 #[test]
