@@ -217,7 +217,7 @@ fn head(file: &Path) -> Option<String> {
     // Not of a device or a pipe, which would never end.
     let bytes = lobe_files::read(file).ok()?;
     let bytes = lobe_formats::plain_text(&bytes);
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 16)]).into_owned();
+    let text = lobe_formats::decoded(&bytes[..bytes.len().min(1 << 16)]);
     let is_text = !text.contains('\0');
     let shown = |line: &str| {
         let mut shown = String::new();

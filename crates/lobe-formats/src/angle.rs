@@ -29,7 +29,7 @@ words! {
     /// A unit of angles.
     Unit:
     /// Degrees.
-    Deg = "deg" or "degree" or "degrees" or "°" or "grad",
+    Deg = "deg" or "degree" or "degrees" or "°" or "º" or "˚" or "grad",
     /// Radians.
     Rad = "rad" or "radian" or "radians",
     /// Thousandths of a radian.

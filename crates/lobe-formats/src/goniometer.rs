@@ -11,8 +11,10 @@
 //! turn, they become a grid, otherwise scattered samples.
 
 mod angles;
+mod blocks;
 mod build;
 mod chosen;
+mod claims;
 mod directions;
 mod facts;
 mod grid;
@@ -38,7 +40,6 @@ mod unit;
 mod words;
 mod write;
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use lobe_table::{Channels, Data, specular};
@@ -123,9 +124,9 @@ fn beginning(bytes: &[u8]) -> &[u8] {
 /// `true` for a text with names of angle columns and rows of numbers, and for such JSON.
 pub fn matches(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
-    let head = text(beginning(&bytes));
+    let head = plain::decoded(beginning(&bytes));
     match head.trim_start().starts_with('{') {
-        true => json::matches(&text(&bytes[..bytes.len().min(HEAD)])),
+        true => json::matches(&plain::decoded(&bytes[..bytes.len().min(HEAD)])),
         // `def` opens the values in files of Integra, whose lists of angles look like columns.
         false => !head.contains('\0') && !has_words(head.as_bytes(), ";;", &["def"]) && table::is_named_table(&head),
     }
@@ -134,7 +135,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 /// `true` for a text with rows of numbers, whatever is above them: a table whose contents options have to describe.
 pub fn may_be(bytes: &[u8]) -> bool {
     let bytes = plain::text(bytes);
-    let head = text(beginning(&bytes));
+    let head = plain::decoded(beginning(&bytes));
     !head.contains('\0') && table::has_rows(&head)
 }
 
@@ -161,17 +162,7 @@ pub fn read_with(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<Doc
     let bytes = plain::text(bytes);
     let raw = match bytes.trim_ascii_start().starts_with(b"{") {
         true => json::read(&bytes, file, options)?,
-        false => table::read(&text(&bytes), file, options)?,
+        false => table::read(&plain::decoded(&bytes), file, options)?,
     };
     build::document(raw, file, options)
-}
-
-/// UTF-8, or a single-byte encoding of western Europe.
-fn text(bytes: &[u8]) -> Cow<'_, str> {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.into(),
-        // A character may be cut at the end of a sample.
-        Err(error) if error.error_len().is_none() => String::from_utf8_lossy(&bytes[..error.valid_up_to()]),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect::<String>().into(),
-    }
 }

@@ -87,7 +87,7 @@ pub use document::{Document, Measured, Part};
 pub use integra::{ddr, sdr};
 pub use lobe_files::{FormatError, Place, write_whole};
 pub use open::{from_bytes, from_bytes_with, open, open_with, read, read_with};
-pub use plain::text as plain_text;
+pub use plain::{decoded, text as plain_text};
 pub use reading::ReadOptions;
 pub use registry::{Format, sniff};
 pub use sheet::Sides;

@@ -28,6 +28,29 @@ pub fn text(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
+/// The text of bytes that [`text`] returned: UTF-8, or the Windows code page of western Europe, of which Latin-1 is a part.
+/// A character that is cut at the end is left out.
+pub fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(error) if error.error_len().is_none() => String::from_utf8_lossy(&bytes[..error.valid_up_to()]),
+        Err(_) => bytes.iter().map(|&byte| of_windows(byte)).collect::<String>().into(),
+    }
+}
+
+/// A character of code page 1252.
+fn of_windows(byte: u8) -> char {
+    /// From 0x80 to 0x9f; bytes without a character are control characters, as in Latin-1.
+    const SPECIAL: [char; 32] = [
+        '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}', '‘',
+        '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+    ];
+    match byte {
+        0x80..=0x9f => SPECIAL[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
+
 enum Order {
     Little,
     Big,
@@ -82,6 +105,9 @@ mod tests {
         for bytes in texts {
             assert_eq!(text(&bytes), wanted.as_bytes(), "{bytes:?}");
         }
+        assert_eq!(decoded(b"30\xb0 \x96 \xb5m \x89"), "30° – µm ‰");
+        assert_eq!(decoded("µ°".as_bytes()), "µ°");
+        assert_eq!(decoded(b"a\xc2"), "a");
         for other in [&b"a\r\nb\r\n"[..], b"\0\r\x01", b"", b"\xff\xfe\0\0a\0\0\0", b"Z\0\0\0Z\0\0\0\xb4\0\0\0\0\0\0\0"]
         {
             assert_eq!(text(other), other);

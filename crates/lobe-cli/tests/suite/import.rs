@@ -33,6 +33,29 @@ fn tables_that_are_not_understood_are_shown_with_the_options() {
     assert!(!files.path("scan.txt.lobe.toml").exists());
 }
 
+/// Letters of old code pages are shown as they are read.
+#[test]
+fn lines_are_shown_in_their_code_page() {
+    let files = Files::new();
+    let path = files.path("scan.txt");
+    let text_of = "Lack, grün, 45° – 5 µm\n".chars().map(|c| if c == '–' { 0x96 } else { c as u32 as u8 });
+    std::fs::write(&path, text_of.chain(lambert(0.9).bytes()).collect::<Vec<u8>>()).expect("a file");
+    let (code, _, message) = run(&["import", text(&path)]);
+    assert!(code == 1 && message.contains("     1 | Lack, grün, 45° – 5 µm"), "{message}");
+}
+
+/// What a line above the rows says of the values is not read past, and the message says how to settle it.
+#[test]
+fn factors_above_a_table_are_settled_by_scale() {
+    let files = Files::new();
+    let file = files.write("scan.csv", &format!("Scale: 1000\nAOI;view angle;azimuth;BRDF\n{}", lambert(0.2)));
+    let (code, _, message) = run(&["info", text(&file)]);
+    assert!(code == 1 && message.contains("scan.csv:1: found a factor of 1000 in the line"), "{message}");
+    assert!(message.contains("scale"), "{message}");
+    let value = printed(&["eval", text(&file), "--wi", "0,0,1", "--wo", "0,0,1", "--scale", "0.001"]);
+    assert!(value.contains("0.0002"), "{value}");
+}
+
 #[test]
 fn options_are_kept_for_every_command() {
     let files = Files::new();

@@ -35,10 +35,11 @@ pub(super) fn document(mut raw: Raw, file: &Path, options: &ReadOptions) -> Resu
     for angles in &mut samples.angles {
         angles.iter_mut().zip(units).for_each(|(angle, unit)| *angle *= unit);
     }
-    match &raw.layout.values {
-        Values::Channels(_, channels) => samples.channels = channels.clone(),
-        Values::Wide(..) => {}
-        Values::ByWavelength { .. } => samples.by_wavelength(&raw.wavelengths, file)?,
+    if let Values::Channels(_, channels) = &raw.layout.values {
+        samples.channels = channels.clone();
+    }
+    if !raw.wavelengths.is_empty() {
+        samples.by_wavelength(&raw.wavelengths, file)?;
     }
     samples.leave_out_missing(file, &mut notes)?;
     let holds = options.holds.or(raw.layout.holds).or(raw.facts.holds);

@@ -2,6 +2,7 @@
 
 use super::meaning::Meaning;
 use super::names::meaning;
+use super::stated::unit_of_angle;
 use super::trouble::Trouble;
 use crate::angle::Angle;
 use crate::lines::shown;
@@ -78,8 +79,16 @@ pub(super) fn of_name(name: &str) -> Meaning {
 /// The corner of a table with a column per angle names both: `theta_o \\ theta_i`. Its own column holds the first.
 fn corner(name: &str) -> &str {
     match name.split_once(['\\', '/']) {
-        Some((rows, columns)) if [rows, columns].iter().all(|part| matches!(meaning(part), Meaning::Angle(..))) => rows,
-        _ => name,
+        Some((rows, columns)) => match (meaning(rows), meaning(columns)) {
+            // The names of the columns are numbers in the same unit.
+            (Meaning::Angle(_, unit), Meaning::Angle(_, other))
+                if (other.is_none() || unit == other) && unit_of_angle(columns).is_none() =>
+            {
+                rows
+            }
+            _ => name,
+        },
+        None => name,
     }
 }
 

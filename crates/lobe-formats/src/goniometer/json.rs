@@ -1,7 +1,10 @@
 //! Tables as JSON: an object with a list of numbers per column.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
+
+use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, Visitor};
 
 use super::chosen::meanings;
 use super::facts::Facts;
@@ -12,6 +15,7 @@ use super::rows::Raw;
 use super::source::Source;
 use super::trouble::Trouble;
 use crate::angle::Angle;
+use crate::lines::shown;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 
@@ -30,9 +34,37 @@ pub(super) fn matches(head: &str) -> bool {
     has(&[Angle::ThetaI, Angle::ThetaO]) || has(&[Angle::Sigma, Angle::Theta, Angle::Phi])
 }
 
+/// The columns by name. The last of several with one name would hide the others, so it is an error.
+struct Columns(BTreeMap<String, Vec<Option<f64>>>);
+
+impl<'de> Deserialize<'de> for Columns {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Each;
+        impl<'de> Visitor<'de> for Each {
+            type Value = Columns;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object with a list of numbers for each column")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Columns, A::Error> {
+                let mut columns = BTreeMap::new();
+                while let Some((name, column)) = map.next_entry::<String, Vec<Option<f64>>>()? {
+                    let shown = shown(&name);
+                    if columns.insert(name, column).is_some() {
+                        return Err(A::Error::custom(format!("a second column {shown}")));
+                    }
+                }
+                Ok(Columns(columns))
+            }
+        }
+        deserializer.deserialize_map(Each)
+    }
+}
+
 /// Reads the columns; `null` means "not measured".
 pub(super) fn read(bytes: &[u8], file: &Path, options: &ReadOptions) -> Result<Raw, FormatError> {
-    let columns: BTreeMap<String, Vec<Option<f64>>> = serde_json::from_slice(bytes).map_err(|error| {
+    let Columns(columns) = serde_json::from_slice(bytes).map_err(|error| {
         let expected = "an object with a list of numbers for each column";
         FormatError::new(file, Place::Line(error.line()), error.to_string(), expected)
     })?;

@@ -9,7 +9,7 @@ use super::directions::{has_twice, settle, wide};
 use super::facts::Facts;
 use super::meaning::Meaning;
 use super::source::{SPECULAR, SPHERICAL, Source};
-use super::stated::{Remedy, other_values, unit_of_angle};
+use super::stated::{other_values, unit_of_angle};
 use super::trouble::Trouble;
 use crate::angle::{Angle, Unit};
 use crate::columns::channels;
@@ -50,6 +50,8 @@ const WANTED: &str =
     "theta_i and theta_o, with phi_o unless the viewer stays in the plane of incidence, or sigma, theta and phi";
 /// A number below this, in nm, counts as a wavelength only with its unit.
 const SHORTEST: f64 = 100.0;
+/// In degrees.
+const FULL_TURN: f64 = 360.0;
 
 const CHANNELS: &str = "R, G, B or X, Y, Z or wavelengths such as 550nm or one column such as BRDF";
 
@@ -206,15 +208,12 @@ impl Layout {
         }
         for name in columns.iter().filter_map(|column| names.get(*column)) {
             let Some(stated) = other_values(name) else { continue };
-            let is_said = match stated.remedy {
-                Remedy::Scale => options.scale.is_some(),
-                Remedy::Either => is_said,
-                Remedy::None => false,
-            };
-            if !is_said {
+            if !stated.remedy.is_said(options) {
                 return Err(Trouble::new(format!("{} in column {}", stated.found, shown(name)), stated.expected));
             }
         }
+        let is_turn = |column: &usize| matches!(meanings[*column], Meaning::Number(number, ..) if number <= FULL_TURN);
+        let may_be_azimuths = self.angles[3] == Source::Missing && columns.len() > 1 && columns.iter().all(is_turn);
         let mut channel_names = Vec::new();
         let mut quantities = Vec::new();
         let mut percents = Vec::new();
@@ -233,8 +232,8 @@ impl Layout {
                         self.holds = Some(Holds::Transmission);
                     }
                 }
-                // In nm it would be an X-ray, and micrometres are not stated.
-                Meaning::Number(number, ..) if *number < SHORTEST => {
+                // In nm it would be an X-ray, and micrometres are not stated. Without azimuths, it may be one.
+                Meaning::Number(number, ..) if *number < SHORTEST || may_be_azimuths => {
                     let found = format!("the name {}, which may be a wavelength or something else", shown(name));
                     return Err(Trouble::new(
                         found,

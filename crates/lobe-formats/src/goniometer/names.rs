@@ -3,6 +3,7 @@
 use super::angles::side;
 use super::meaning::{Meaning, Name};
 use super::quantities::{COLOURS, LENGTHS, SIGNALS, is_signal_unit, nanometres};
+use super::stated::is_percent;
 use super::words::{FILLERS, OF_NO_VALUE, WHOLE};
 use crate::angle::Unit;
 
@@ -40,6 +41,8 @@ impl Name {
                 'θ' | 'ϑ' | 'Θ' => spelled.push_str(" theta "),
                 'φ' | 'ϕ' | 'Φ' => spelled.push_str(" phi "),
                 'λ' => spelled.push_str(" lambda "),
+                // Signs that look like that of degrees.
+                'º' | '˚' => spelled.push('°'),
                 'Δ' => spelled.push_str(" delta "),
                 'ᵢ' => spelled.push_str(" i"),
                 'ₒ' => spelled.push_str(" o"),
@@ -57,7 +60,7 @@ impl Name {
             let inner = inner.trim().trim_start_matches("in ");
             angle_unit = inner.parse().ok();
             if angle_unit.is_some() || !is_part_of_a_name(inner) {
-                unit = inner.to_string();
+                unit = if is_percent(inner) { "%".into() } else { inner.to_string() };
                 spelled = head.trim().to_string();
             }
         }
@@ -72,6 +75,13 @@ impl Name {
                 // Signs and letters of several bytes may follow.
                 spelled.truncate(at);
                 spelled.truncate(spelled.trim_end_matches(is_apart).len());
+            }
+        }
+        if unit.is_empty() && words.len() > 1 && words.last().is_some_and(|word| is_percent(word)) {
+            unit = "%".into();
+            words.pop();
+            if words.last().is_some_and(|word| word == "in" || word == "per") {
+                words.pop();
             }
         }
         if let Some(last) = words.last_mut()

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::facts::{Facts, fixed};
+use super::blocks::Blocks;
+use super::facts::{Facts, fixed, says_nothing, wavelength};
 use super::layout::{Layout, Values};
 use super::sheet::{Cell, Dialect, Line};
 use super::source::{SPECULAR, SPHERICAL, Source};
@@ -41,42 +42,49 @@ impl Raw {
         start: &Start,
         dialect: Dialect,
         file: &Path,
-    ) -> Result<(), FormatError> {
+    ) -> Result<Blocks, FormatError> {
         let error = |line: &Line<'_>, found: String, expected: String| {
             Err(FormatError::new(file, Place::Line(line.number), found, expected))
         };
         let names_text = lines.iter().find(|line| line.number == start.names_line).map(|line| line.text.trim());
         let used = self.layout.used();
         let last = used.iter().copied().max().unwrap_or(0);
-        // A line that is not a row, until it is known what follows.
-        let mut pending: Option<&Line<'_>> = None;
-        let mut after = 0;
+        // Lines that are not rows, until it is known what follows.
+        let mut pending: Vec<&Line<'_>> = Vec::new();
+        let mut blocks = Blocks::new(self.facts.wavelength);
+        let mut before = lines[start.first].number;
         let mut seen: BTreeMap<([u64; 4], u64), (usize, Vec<String>)> = BTreeMap::new();
         for line in &lines[start.first..] {
-            if line.comment().is_some() {
+            if line.number > before + 1 {
+                blocks.begin(self.rows.len(), line.number - 1, self.facts.wavelength);
+            }
+            before = line.number;
+            let is_comment = line.comment().is_some();
+            if is_comment || wavelength(dialect, line).is_some() {
                 self.facts.add(dialect, line);
-                self.turn(dialect, line);
+                if !(self.turn(dialect, line) || (is_comment && says_nothing(line))) {
+                    blocks.begin(self.rows.len(), line.number, self.facts.wavelength);
+                }
                 continue;
             }
             if Some(line.text.trim()) == names_text {
-                pending = None;
+                blocks.begin(self.rows.len(), line.number, self.facts.wavelength);
+                pending.drain(..).for_each(|line| self.facts.add(dialect, line));
                 continue;
             }
             if self.turn(dialect, line) {
-                pending = None;
+                pending.clear();
                 continue;
             }
             let cells = dialect.cells(line.text);
             let is_row = cells.iter().any(|cell| matches!(dialect.cell(cell), Cell::Number(_)));
             if !is_row {
-                pending = pending.or(Some(line));
-                after += 1;
+                pending.push(line);
                 continue;
             }
-            if let Some(pending) = pending {
+            if let Some(pending) = pending.first() {
                 return error(pending, shown(pending.text.trim()), format!("a row of {} cells", start.width));
             }
-            after = 0;
             let filled = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
             if cells.len() < start.width.min(last + 1)
                 || filled > start.width
@@ -90,13 +98,15 @@ impl Raw {
                 self.watch(&cells, line, &mut seen, &start.names, file)?;
             }
         }
-        if after > 0 {
-            self.notes.push(format!("{after} lines after the rows are not read"));
+        if !pending.is_empty() {
+            self.notes.push(format!("{} lines after the rows are not read", pending.len()));
+            // But they may say what the values are.
+            pending.iter().for_each(|line| self.facts.claim(dialect, line));
         }
         if self.rows.is_empty() {
             return Err(FormatError::new(file, Place::File, "no rows with values", "at least one"));
         }
-        Ok(())
+        Ok(blocks)
     }
 
     /// Takes an angle that applies from this line on, if the line states one.

@@ -64,6 +64,8 @@ const MISSING: &[&str] = &[
     "-",
     "--",
     "---",
+    "–",
+    "—",
     "#n/a",
     "#nv",
     "#num!",
@@ -148,17 +150,17 @@ impl Dialect {
 
     /// A finite number, perhaps with a sign for degrees.
     pub fn number(self, text: &str) -> Option<f64> {
-        let text = text.strip_suffix('°').map_or(text, str::trim_end);
+        let text = text.strip_suffix(['°', 'º', '˚']).map_or(text, str::trim_end);
         let has_digit = text.bytes().any(|byte| byte.is_ascii_digit());
         let is_decimal = |c: char| c == if self.has_decimal_comma { ',' } else { '.' };
-        let fits = |c: char| c.is_ascii_digit() || is_decimal(c) || "+-−eEdD".contains(c);
+        let fits = |c: char| c.is_ascii_digit() || is_decimal(c) || "+-−–‐eEdD".contains(c);
         if !has_digit || !text.chars().all(fits) {
             return None;
         }
         let number = if text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte)) {
             text.parse()
         } else {
-            text.replace(',', ".").replace('−', "-").replace(['d', 'D'], "e").parse()
+            text.replace(',', ".").replace(['−', '–', '‐'], "-").replace(['d', 'D'], "e").parse()
         };
         number.ok().filter(|number: &f64| number.is_finite())
     }

@@ -2,6 +2,8 @@
 
 use super::angles::{Side, side};
 use super::meaning::Name;
+use super::quantities::is_signal_unit;
+use crate::reading::ReadOptions;
 
 /// Units of angles, and of other things, in which instruments state a direction.
 const OTHER_ANGLES: &[&str] = &[
@@ -65,7 +67,7 @@ const PER_STERADIAN: &[&str] = &[
 const FACTORS: &[&str] = &["10-", "10⁻", "10**", "10e", "1e", "x10", "×", "*10", "·10", "e-", "pi", "π"];
 
 /// Words of units, and of names, for numbers without a known scale.
-const RELATIVE: &[&str] = &[
+pub(super) const RELATIVE: &[&str] = &[
     "a.u.",
     "a.u",
     "au",
@@ -91,15 +93,16 @@ const RELATIVE: &[&str] = &[
     "skaliert",
 ];
 
-const LOGARITHMS: &[&str] = &["log", "log10", "logarithm", "lg", "ln", "db", "decibel", "loge"];
+pub(super) const LOGARITHMS: &[&str] = &["log", "log10", "logarithm", "lg", "ln", "db", "decibel", "loge"];
 
 /// Words in brackets after an angle that is not from the normal.
 const OTHER_ORIGINS: &[&str] = &["specular", "mirror", "glanz", "spiegel", "surface", "horizon", "grazing", "relative"];
 
-const FACTOR: &str = "f in 1/sr, or the factor that converts to it: scale";
-const QUANTITY: &str = "f in 1/sr, or their quantity: values = f, luminance-factor or f-cos, and scale";
+pub(super) const FACTOR: &str = "f in 1/sr, or the factor that converts to it: scale";
+pub(super) const QUANTITY: &str = "f in 1/sr, or their quantity: values = f, luminance-factor or f-cos, and scale";
 
 /// What a name says of its values that is not `f` in 1/sr.
+#[derive(Clone, Debug)]
 pub(super) struct Stated {
     pub found: String,
     pub expected: &'static str,
@@ -107,12 +110,45 @@ pub(super) struct Stated {
 }
 
 /// The options with which such values are read.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Remedy {
     Scale,
     /// Their quantity or their scale.
     Either,
+    /// The unit of angles.
+    Unit,
     None,
+}
+
+impl Remedy {
+    /// `true` if the options say what is left open.
+    pub fn is_said(self, options: &ReadOptions) -> bool {
+        match self {
+            Remedy::Scale => options.scale.is_some(),
+            Remedy::Either => options.values.is_some() || options.scale.is_some(),
+            Remedy::Unit => options.unit.is_some(),
+            Remedy::None => false,
+        }
+    }
+}
+
+/// `true` for a unit in hundredths.
+pub(super) fn is_percent(unit: &str) -> bool {
+    ["%", "percent", "pct", "prozent"].contains(&unit.trim().to_lowercase().replace(' ', "").as_str())
+}
+
+/// `true` for a unit, or a factor, of values that are not `f` in 1/sr. Units of angles may be lists of several.
+pub(super) fn is_not_f(unit: &str) -> bool {
+    let plain = plain(&unit.to_lowercase());
+    let plain = plain.as_str();
+    is_signal_unit(plain) || LOGARITHMS.contains(&plain) || RELATIVE.contains(&plain) || is_other_scale(plain)
+}
+
+/// `true` for a unit with another scale than 1/sr, without blanks, brackets and carets.
+fn is_other_scale(unit: &str) -> bool {
+    const PARTS: &[&str] = &["‰", "permil", "promille", "ppm", "ppb"];
+    !PER_STERADIAN.contains(&unit)
+        && (unit.contains("sr") || unit.contains("sterad") || has_factor(unit) || PARTS.contains(&unit))
 }
 
 /// A unit or an origin of an angle that is not read.
@@ -152,7 +188,7 @@ pub(super) fn other_values(name: &str) -> Option<Stated> {
         return stated("a factor of pi".into(), QUANTITY, Remedy::Either);
     }
     let unit = unit.as_str();
-    if !PER_STERADIAN.contains(&unit) && (unit.contains("sr") || unit.contains("sterad") || has_factor(unit)) {
+    if is_other_scale(unit) {
         return stated(format!("the unit {}", name.unit), FACTOR, Remedy::Scale);
     }
     if name.is_of_incident_cosine() {

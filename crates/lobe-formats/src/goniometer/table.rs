@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use super::chosen::meanings;
+use super::claims::Claim;
 use super::directions::has_directions;
 use super::facts::Facts;
 use super::layout::Layout;
@@ -13,6 +14,7 @@ use super::start::{HEAD, has_names, start};
 use super::stated;
 use super::trouble::Trouble;
 use crate::angle::Unit;
+use crate::lines::shown;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 
@@ -75,9 +77,13 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
     }
     let mut facts = Facts::default();
     let (names_line, has_names) = (start.names_line, !start.names.is_empty());
-    for line in lines[..start.first].iter().filter(|line| line.number != names_line || !has_names) {
-        let is_below = line.number > names_line && has_names;
-        if !(is_below && add_units(&mut start.names, dialect, line)) {
+    let above = lines[..start.first].iter().rposition(|line| line.number < names_line);
+    for (at, line) in
+        lines[..start.first].iter().enumerate().filter(|(_, line)| line.number != names_line || !has_names)
+    {
+        let is_below = line.number > names_line;
+        let is_next = is_below || (above == Some(at) && are_units(dialect, line));
+        if !(has_names && is_next && add_units(&mut start.names, dialect, line)) {
             facts.add(dialect, line);
         }
     }
@@ -106,7 +112,13 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
         notes,
         names_line: start.names_line,
     };
-    raw.read_rows(&lines, &start, dialect, file)?;
+    let blocks = raw.read_rows(&lines, &start, dialect, file)?;
+    blocks.close(&mut raw, options, file)?;
+    let open = raw.facts.claims.iter().find(|claim| !claim.is_settled(raw.layout.quantity, options));
+    if let Some(Claim { line, text, stated, .. }) = open {
+        let found = format!("{} in the line {}", stated.found, shown(text));
+        return Err(FormatError::new(file, Place::Line(*line), found, stated.expected));
+    }
     Ok(raw)
 }
 
@@ -122,7 +134,15 @@ fn hint(error: FormatError, options: &ReadOptions) -> FormatError {
     FormatError { expected, ..error }
 }
 
-/// Adds the units of a line below the names to those that state none.
+/// `true` for a line of two or more cells, all of which are units.
+fn are_units(dialect: Dialect, line: &Line<'_>) -> bool {
+    let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
+    let units: Vec<&str> = cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')'])).collect();
+    let mut filled = units.iter().filter(|unit| !unit.is_empty());
+    filled.clone().count() > 1 && filled.all(|unit| unit.parse::<Unit>().is_ok() || stated::is_unit(unit))
+}
+
+/// Adds the units of a line next to the names to those that state none.
 fn add_units(names: &mut [String], dialect: Dialect, line: &Line<'_>) -> bool {
     let cells = dialect.cells_to_the_last(line.comment().unwrap_or(line.text));
     let units: Vec<&str> = cells.iter().map(|cell| cell.trim_matches(['[', ']', '(', ')'])).collect();

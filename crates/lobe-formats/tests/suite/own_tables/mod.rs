@@ -1,5 +1,6 @@
 //! Users' own tables: each spelling of one measurement is read as that measurement, or refused with advice.
 
+mod around;
 mod options;
 mod text;
 mod values;
@@ -7,7 +8,7 @@ mod values;
 use std::path::Path;
 
 use lobe_formats::reading::ReadOptions;
-use lobe_formats::{Document, from_bytes_with, sidecar};
+use lobe_formats::{Document, Place, from_bytes_with, sidecar};
 use lobe_table::{Data, Scatter};
 
 pub const THETA_I: [f64; 3] = [10.0, 30.0, 50.0];
