@@ -92,9 +92,9 @@ pub struct CameraPdf {
 }
 
 impl View {
-    /// A vector to the right of the picture, of any length.
-    pub(crate) fn right(&self) -> Vec3 {
-        self.right
+    /// A vector to the top of the picture, of any length.
+    pub(crate) fn top(&self) -> Vec3 {
+        self.top
     }
 
     /// The view of a camera with a film of this many columns and rows.

@@ -196,9 +196,9 @@ pub trait Transport: Copy + Debug + Default + PartialEq + Eq + Send + Sync + 'st
         Self::apply(throughput, Self::scattering(weight))
     }
 
-    /// The throughput of a path that begins along a ray at the camera, whose right is given.
-    fn at_camera(basis: &Self::Basis, right: Vec3, direction: Vec3) -> Self::Throughput {
-        let _ = (basis, right, direction);
+    /// The throughput of a path that begins along a ray at the camera; `top` leads to the top of the picture.
+    fn at_camera(basis: &Self::Basis, top: Vec3, direction: Vec3) -> Self::Throughput {
+        let _ = (basis, top, direction);
         Self::START
     }
 }

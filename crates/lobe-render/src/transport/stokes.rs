@@ -1,9 +1,10 @@
 //! Polarised light: four Stokes components of each channel.
 //!
 //! A Stokes vector refers to an x axis across the direction in which light travels, which for directions of the world
-//! and of materials is [`stokes_basis`] of that direction; at the film it is the right of the camera. S1 is light along
-//! the x axis minus light across it, S2 light along the diagonal from the x to the y axis minus light across that, and
-//! S3 right circular light, whose field turns clockwise as seen by the receiver, minus left circular light.
+//! and of materials is [`stokes_basis`] of that direction; at the film it is the direction to the right that is across
+//! the ray and across the upward direction of the camera, as in Mitsuba 3. S1 is light along the x axis minus light
+//! across it, S2 light along the diagonal from the x to the y axis minus light across that, and S3 right circular light,
+//! whose field turns clockwise as seen by the receiver, minus left circular light.
 
 use std::fmt::Debug;
 use std::marker::PhantomData;
@@ -14,7 +15,7 @@ use super::components::Components;
 use super::rows::{Rows, doubled, stokes_basis};
 use super::{Bands, Bounce, Conversion, Mueller, Rgb, Transport};
 use crate::light::LightPolarisation;
-use crate::vec3::{Vec3, dot, neg, scale, sub, unit};
+use crate::vec3::{Vec3, cross, neg, unit};
 
 /// Polarised light over the `N` channels of another transport, of which the film sums the first `R` Stokes components:
 /// all four, or the energy alone.
@@ -222,11 +223,10 @@ where
         throughput.bounced_exactly(&weight, polarisation, bounce)
     }
 
-    fn at_camera(basis: &T::Basis, right: Vec3, direction: Vec3) -> Rows<R, N> {
+    fn at_camera(basis: &T::Basis, top: Vec3, direction: Vec3) -> Rows<R, N> {
         let forward = neg(direction);
-        let across = sub(right, scale(forward, dot(right, forward)));
-        let target = unit(across).unwrap_or_else(|| stokes_basis(forward));
-        let open = T::at_camera(basis, right, direction);
+        let target = unit(cross(direction, top)).unwrap_or_else(|| stokes_basis(forward));
+        let open = T::at_camera(basis, top, direction);
         let mut start = Rows::IDENTITY.turned_before(doubled(forward, stokes_basis(forward), target));
         for element in start.elements.as_flattened_mut() {
             element.iter_mut().zip(&open).for_each(|(x, open)| *x *= open);

@@ -60,10 +60,10 @@ impl<T: Transport> Wavefront<'_, T> {
         rays::fill(rays, n.next_multiple_of(MAX_LANES));
         self.view.rays(self.backend, &self.pixels, &self.numbers, rays);
         rays::fill(rays, n);
-        let (basis, right) = (&self.world.basis, self.view.right());
+        let (basis, top) = (&self.world.basis, self.view.top());
         states.extend((0..n).map(|slot| {
             let direction = rays.direction.each_ref().map(|column| column[slot]);
-            PathState { slot: slot as u32, throughput: T::at_camera(basis, right, direction), pdf: f32::INFINITY }
+            PathState { slot: slot as u32, throughput: T::at_camera(basis, top, direction), pdf: f32::INFINITY }
         }));
         self.stats.samples += self.slots.len() as u64;
     }
