@@ -8,7 +8,7 @@ use super::film::FilmTable;
 use super::{Evaluated, Lobes, Sampled, Scratch, Shader};
 use crate::channels::Channels;
 use crate::transport::{Polarisation, Transport, TransportMode};
-use crate::vec3::{Vec3, dot, scale, sub, unit};
+use crate::vec3::{Vec3, cross, dot, scale, sub, unit};
 
 /// One of the exact directions that a path may take, and its effect on the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +70,8 @@ pub enum Delta<S: Channels = [f32; 3]> {
         /// Its imaginary part.
         k: S,
     },
-    /// A thin sheet through which light goes straight; only the part polarised along an axis passes.
+    /// A thin sheet through which light goes straight, but for the part polarised across an axis. A tilted one absorbs
+    /// along that direction as it is seen along the ray (Korger et al., Optics Express 21(22), 2013).
     Polariser {
         /// The angle of the axis from the x axis of the surface, in radians.
         angle: f32,
@@ -172,13 +173,14 @@ impl<S: Channels> Delta<S> {
                 DeltaSamples { reflection, transmission: None }
             }
             Delta::Polariser { angle, tint } => {
-                let elements = [S::ONE, S::ZERO, S::ZERO];
-                straight(wo, *angle, tint.map(|t| 0.5 * t), elements, choice)
+                let (sin, cos) = libm::sincosf(*angle);
+                let axis = seen([-sin, cos, 0.0], wo).map(|absorbed| cross(absorbed, wo));
+                straight(wo, axis, tint.map(|t| 0.5 * t), [S::ONE, S::ZERO, S::ZERO], choice)
             }
             Delta::Retarder { angle, retardance } => {
-                let (sin, cos) = libm::sincosf(*retardance);
+                let [(sin, cos), (y, x)] = [*retardance, *angle].map(libm::sincosf);
                 let elements = [S::ZERO, S::ONE.map(|_| cos), S::ONE.map(|_| sin)];
-                straight(wo, *angle, S::ONE, elements, choice)
+                straight(wo, seen([x, y, 0.0], wo), S::ONE, elements, choice)
             }
             Delta::Film { table, behind, tint } => {
                 let [mirror, passed] = table.at(wo[2] > 0.0, wo[2].abs()).map(|elements| elements.of);
@@ -230,13 +232,14 @@ fn polarisation<S>(wo: Vec3, [b, c, s]: [S; 3]) -> Polarisation<S> {
     Polarisation { axis, b, c, s }
 }
 
+/// The unit vector of an axis as seen along a ray; `None` along the axis.
+fn seen(axis: Vec3, wo: Vec3) -> Option<Vec3> {
+    unit(sub(axis, scale(wo, dot(axis, wo))))
+}
+
 /// Light that goes straight through a sheet with an axis.
-fn straight<S: Channels>(wo: Vec3, angle: f32, weight: S, [b, c, s]: [S; 3], choice: Choice) -> DeltaSamples<S> {
-    let (sin, cos) = libm::sincosf(angle);
-    let along = [cos, sin, 0.0];
-    let away = dot(along, wo);
-    let axis = unit(sub(along, scale(wo, away)));
-    // Light that travels along the axis has no part across it.
+fn straight<S: Channels>(wo: Vec3, axis: Option<Vec3>, weight: S, of: [S; 3], choice: Choice) -> DeltaSamples<S> {
+    let [b, c, s] = of;
     let polarisation = axis.filter(|_| choice.is_polarised).map(|axis| Polarisation { axis, b, c, s });
     let wi = wo.map(|x| -x);
     DeltaSamples {
