@@ -28,6 +28,7 @@ mod meaning;
 mod names;
 mod plane;
 mod quantities;
+mod raw;
 mod rows;
 mod samples;
 mod sheet;

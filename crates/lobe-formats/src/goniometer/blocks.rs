@@ -6,7 +6,7 @@ use std::path::Path;
 use lobe_table::Channels;
 
 use super::layout::Values;
-use super::rows::Raw;
+use super::raw::Raw;
 use crate::reading::{Content, ReadOptions};
 use crate::{FormatError, Place};
 

@@ -8,7 +8,7 @@ use lobe_table::{Channels, Scatter};
 
 use super::grid::{Of, data};
 use super::layout::Values;
-use super::rows::Raw;
+use super::raw::Raw;
 use super::samples::Samples;
 use super::{plane, unit};
 use crate::reading::{Holds, Quantity, ReadOptions};

@@ -11,7 +11,7 @@ use super::facts::Facts;
 use super::layout::{Layout, Values};
 use super::meaning::Meaning;
 use super::names::meaning;
-use super::rows::Raw;
+use super::raw::Raw;
 use super::source::Source;
 use super::trouble::Trouble;
 use crate::angle::Angle;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::rows::Raw;
+use super::raw::Raw;
 use crate::reading::ReadOptions;
 use crate::{FormatError, Place};
 

@@ -1,36 +1,19 @@
-//! The rows of a table as written in the file.
+//! Reads the rows of a table.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::blocks::Blocks;
-use super::facts::{Facts, fixed, says_nothing, wavelength};
+use super::facts::{fixed, says_nothing, wavelength};
 use super::layout::{Layout, Values};
+use super::raw::Raw;
 use super::sheet::{Cell, Dialect, Line};
 use super::source::{SPECULAR, SPHERICAL, Source};
 use super::start::Start;
 use crate::angle::{Angle, Unit};
 use crate::lines::shown;
 use crate::{FormatError, Place};
-
-/// Angles and values as written in the file.
-pub(super) struct Raw {
-    pub layout: Layout,
-    pub facts: Facts,
-    /// As written, in the unit of the file: see [`Layout::angles`].
-    pub rows: Vec<[f64; 4]>,
-    /// The line of each row.
-    pub lines: Vec<u32>,
-    /// `[row][channel]`, NaN if not measured; for tables with a wavelength per row, one each.
-    pub values: Vec<f32>,
-    /// The wavelength of each row in nm, if each has its own.
-    pub wavelengths: Vec<f64>,
-    /// How the table was understood, for people.
-    pub notes: Vec<String>,
-    /// The line of the names; 0 if there are none.
-    pub names_line: usize,
-}
 
 /// By the bits of angles and wavelength: the first line with them, and its words in the watched columns.
 type Seen = BTreeMap<([u64; 4], u64), (usize, Vec<String>)>;
@@ -53,7 +36,7 @@ impl Raw {
         let mut pending: Vec<&Line<'_>> = Vec::new();
         let mut blocks = Blocks::new(self.facts.wavelength);
         let mut before = lines[start.first].number;
-        let mut seen: BTreeMap<([u64; 4], u64), (usize, Vec<String>)> = BTreeMap::new();
+        let mut seen = Seen::new();
         for line in &lines[start.first..] {
             if line.number > before + 1 {
                 blocks.begin(self.rows.len(), line.number - 1, self.facts.wavelength);

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 
 use super::layout::Values;
-use super::rows::Raw;
+use super::raw::Raw;
 use super::source::{SPECULAR, SPHERICAL, Source};
 use crate::angle::Unit;
 use crate::reading::ReadOptions;
