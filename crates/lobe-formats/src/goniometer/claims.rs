@@ -303,7 +303,7 @@ fn prose(text: &str) -> Option<Said> {
         .collect();
     let is_value =
         |word: &&str| VALUES.contains(word) || ["brdf", "btdf", "bsdf"].iter().any(|name| word.contains(name));
-    let has_values = words.iter().any(|word| is_value(word));
+    let has_values = words.iter().any(is_value);
     let is_denied = |at: usize| at > 0 && ["not", "no", "without", "nicht", "ohne", "non"].contains(&words[at - 1]);
     for (at, word) in words.iter().enumerate() {
         let after = &words[at + 1..];
