@@ -164,7 +164,7 @@ pub fn sound(program: &Path, folder: &Path) -> Result<Vec<Input>> {
         ensure!(done.status.success(), "{part}: {}", String::from_utf8_lossy(&done.stderr));
     }
     let mut fit = Command::new(program);
-    fit.args("fit sound.ddr --model ggx --starts 1 --pairs 64 -o fit.json".split(' ')).current_dir(folder);
+    fit.args("fit sound.ddr --model lambert --starts 1 --pairs 64 -o fit.json".split(' ')).current_dir(folder);
     let done = fit.stdin(Stdio::null()).output().context("the program")?;
     ensure!(done.status.success(), "fit.json: {}", String::from_utf8_lossy(&done.stderr));
     made.push(Input::new(Kind::Fit, "json", std::fs::read(folder.join("fit.json"))?));
