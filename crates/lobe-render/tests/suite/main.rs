@@ -13,4 +13,5 @@ mod lights;
 mod polarised_lights;
 mod scenes;
 mod spectra;
+mod spectral_furnace;
 mod steps;

@@ -19,6 +19,15 @@ fn lights_are_seen_as_they_are_polarised() {
     near(seen(&sheets(&lamp)), [2.0, 0.0, 0.0, -2.0], 1e-5);
 }
 
+/// Up to the corners of a wide view, the vertical is across the x axis of the film, and a polariser absorbs light along it.
+#[test]
+fn vertical_light_is_vertical_in_the_whole_picture() {
+    let wide = |objects: &str| sheets(objects).replace("field_of_view = 1\n", "field_of_view = 100\n");
+    near(seen(&(wide("") + "polarised = { axis = [0, 1, 0] }\n")), [1.0, -1.0, 0.0, 0.0], 1e-5);
+    let polariser = sheet("near", "model = \"polariser\"\nangle = 0", 3.5);
+    near(seen(&wide(&polariser)), [0.5, 0.5, 0.0, 0.0], 1e-5);
+}
+
 #[test]
 fn a_polariser_passes_polarised_light_by_the_law_of_malus() {
     for degrees in [0.0, 30.0, 90.0] {
