@@ -25,5 +25,6 @@ mod resample;
 #[cfg(unix)]
 mod slurm;
 mod stated;
+mod spectral_bits;
 mod strangers;
 mod sums;
