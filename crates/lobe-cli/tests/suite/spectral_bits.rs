@@ -4,13 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{Files, printed, text};
 
-/// What `[spectrum]` says, for each way to follow wavelengths and polarised light.
-const KINDS: [(&str, &str); 4] = [
-    ("bands", "bands = 9"),
-    ("stokes", "stokes = true"),
-    ("wavelengths", "wavelengths = [450, 520, 600]\nstokes = true"),
-    ("energy", "wavelengths = [450, 520, 600]\nstokes = true\nsensor = \"energy\""),
-];
+/// What `[spectrum]` says: wavelengths, and polarised light.
+const KINDS: [(&str, &str); 2] =
+    [("bands", "bands = 9"), ("wavelengths", "wavelengths = [450, 520, 600]\nstokes = true")];
 
 /// Measured matrices, glass with dispersion, films, metals, a polariser and a retarder, under polarised light.
 fn scene(spectrum: &str, size: [u32; 2]) -> String {
