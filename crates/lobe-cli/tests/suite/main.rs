@@ -24,7 +24,7 @@ mod render;
 mod resample;
 #[cfg(unix)]
 mod slurm;
-mod stated;
 mod spectral_bits;
+mod stated;
 mod strangers;
 mod sums;

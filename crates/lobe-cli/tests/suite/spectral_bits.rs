@@ -15,7 +15,6 @@ fn scene(spectrum: &str, size: [u32; 2]) -> String {
         ("glass", "model = \"glass\"\nglass = \"SF11\""),
         ("metal", "model = \"conductor\"\nmetal = \"gold\"\nalpha = 0.2"),
         ("mirror", "model = \"mirror\"\nmetal = \"silver\"\nfilm = { eta = 1.8, thickness = 250 }"),
-        ("paint", "model = \"plastic\"\nalbedo = [0.1, 0.2, 0.5]\nalpha = 0.2"),
         ("polariser", "model = \"polariser\"\nangle = 20"),
         ("retarder", "model = \"retarder\"\nangle = 70"),
     ];
@@ -25,9 +24,9 @@ fn scene(spectrum: &str, size: [u32; 2]) -> String {
         size[0], size[1]
     );
     for (at, (name, model)) in models.into_iter().enumerate() {
-        let x = 0.7 * (at % 4) as f64 - 1.05;
+        let x = 0.7 * (at % 3) as f64 - 0.7;
         let object = match at {
-            0..4 => format!("shape = \"sphere\"\nradius = 0.33\nsegments = 24\ntranslate = [{x}, 0.34, 0]"),
+            0..3 => format!("shape = \"sphere\"\nradius = 0.33\nsegments = 24\ntranslate = [{x}, 0.34, 0]"),
             _ => format!("shape = \"plane\"\nsize = 0.7\nrotate = [80, 0, 0]\ntranslate = [{x}, 0.5, 1]"),
         };
         scene += &format!("[material.{name}]\n{model}\n[[object]]\n{object}\nmaterial = \"{name}\"\n");
