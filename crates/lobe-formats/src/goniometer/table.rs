@@ -8,6 +8,7 @@ use super::claims::Claim;
 use super::directions::has_directions;
 use super::facts::Facts;
 use super::layout::Layout;
+use super::meaning::Meaning;
 use super::raw::Raw;
 use super::rows::describe;
 use super::sheet::{Cell, Dialect, Line, lines};
@@ -98,6 +99,15 @@ pub(super) fn read(text: &str, file: &Path, options: &ReadOptions) -> Result<Raw
         !cells.is_empty() && !cells.iter().any(|cell| matches!(cell, Cell::Number(_))) && cells.contains(&Cell::Text)
     };
     let is_text: Vec<bool> = (0..meanings.len()).map(is_word).collect();
+    // A column of units or factors says of the values what a line above them would say.
+    for (column, name) in
+        start.names.iter().enumerate().filter(|(column, _)| meanings.get(*column) == Some(&Meaning::Unknown))
+    {
+        facts.claims.extend(lines[start.first..].iter().zip(&sample).find_map(|(line, row)| {
+            let cell = row.get(column)?.trim();
+            Claim::of(line.number, &format!("{name}: {cell}"), Some((name, cell)))
+        }));
+    }
     let layout =
         Layout::new(&start.names, meanings, &is_text, &facts, options).map_err(|trouble| at(of_line, trouble))?;
     let mut notes = vec![dialect.describe()];

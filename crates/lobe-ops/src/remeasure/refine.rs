@@ -94,7 +94,7 @@ const MOST: usize = 1 << 26;
 const PROGRESS: f64 = 0.98;
 
 /// Searches for nodes with an error of at most `bound`, beginning at `start`: each step takes the finer nodes with the
-/// smallest error. If no step helps, or if there would be too many values, the result with the smallest error is
+/// smallest error. If no step helps, or if too many values would be needed, the result with the smallest error is
 /// returned. `measure` returns the measurement at nodes, and its error.
 ///
 /// # Errors
@@ -109,13 +109,19 @@ pub fn refine<T, E>(
         let is_met = error <= bound;
         Refined { nodes, measured, error, is_met }
     };
+    let values = |nodes: &Nodes| nodes.counts().into_iter().fold(channels, usize::saturating_mul);
     let first = measure(&start)?;
     let mut best = refined(start, first);
     while !best.is_met {
+        // The error of linear interpolation falls at best with the square of the number of values. Trees also have the
+        // error of their leaves.
+        let growth = MOST as f64 / values(&best.nodes).max(1) as f64;
+        if !matches!(best.nodes, Nodes::Tree(_)) && best.error / (growth * growth) > bound {
+            break;
+        }
         let mut next: Option<Refined<T>> = None;
         for nodes in best.nodes.refined() {
-            let values = nodes.counts().into_iter().fold(channels, usize::saturating_mul);
-            if values > MOST {
+            if values(&nodes) > MOST {
                 continue;
             }
             let found = measure(&nodes)?;
@@ -140,6 +146,25 @@ mod tests {
     fn spherical(knots: [usize; 4]) -> Nodes {
         let axis = |count: usize| (0..count).map(|i| i as f64 / count as f64).collect::<Vec<f64>>();
         Nodes::Spherical { knots: knots.map(axis), is_half: false }
+    }
+
+    #[test]
+    fn bounds_that_need_too_many_values_are_given_up_early() {
+        let most = std::cell::Cell::new(0);
+        // The error halves with each step.
+        let measure = |nodes: &Nodes| {
+            let values: usize = nodes.counts().into_iter().product();
+            most.set(most.get().max(values));
+            Ok::<_, ()>(((), 1.0 / values as f64))
+        };
+        let reached = |bound: f64| {
+            most.set(0);
+            let refined = refine(spherical([5, 1, 5, 5]), 1, bound, measure).unwrap();
+            (refined.is_met, most.get())
+        };
+        assert!(reached(1e-6).0);
+        let (is_met, values) = reached(1e-12);
+        assert!(!is_met && values < MOST / 100, "{values}");
     }
 
     #[test]

@@ -260,3 +260,25 @@ fn blocks_that_repeat_directions_are_refused() {
     let same = apart.lines().filter(|line| !line.starts_with("50,")).collect::<Vec<_>>().join("\n");
     assert!(from_bytes_with(same.as_bytes(), path(), &options(&[])).is_err());
 }
+
+#[test]
+fn columns_of_units_and_factors_are_not_ignored() {
+    let table = |name: &str, cell: &str| {
+        let rows = rows(|i, o, [a, ..]| format!("{i},{o},{a},{cell}"));
+        format!("theta_i,theta_o,value,{name}\n{rows}")
+    };
+    for (name, cell, found) in [
+        ("unit", "1e-3/sr", "the unit 1e-3/sr"),
+        ("Einheit", "%", "values in %"),
+        ("scale", "1000", "a factor of 1000"),
+        ("Factor", "0.5", "a factor of 0.5"),
+    ] {
+        let text = table(name, cell);
+        let error = from_bytes_with(text.as_bytes(), path(), &options(&[])).expect_err(cell);
+        assert!(error.found.contains(found) && error.place == Place::Line(2), "{name} {cell}: {error}");
+        read(text.as_bytes(), &[("scale", "0.001"), ("values", "f")]);
+    }
+    for (name, cell) in [("unit", "1/sr"), ("units", "sr^-1"), ("scale", "1"), ("detector", "2"), ("note", "good")] {
+        read(table(name, cell).as_bytes(), &[]);
+    }
+}
