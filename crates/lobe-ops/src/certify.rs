@@ -46,7 +46,7 @@ pub enum Incomparable {
 }
 
 /// Compares the measurements that both files have, at `pairs` pairs of directions up to [`LIMIT`]: the first ones of a
-/// fixed sequence ([`direction_pairs`](crate::direction_pairs)), which are the nodes of no grid. If `channel` names a
+/// fixed sequence ([`direction_pairs`]), which are the nodes of no grid. If `channel` names a
 /// channel of the source, only this one is compared, as [`Channel::of`] finds it in both.
 ///
 /// # Errors
