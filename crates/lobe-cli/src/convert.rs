@@ -78,7 +78,7 @@ struct Answer {
     resampled: Option<String>,
     /// How the channels were changed; `None` if they were not.
     note: Option<String>,
-    /// The error as `lobe compare` prints it; `None` if there is none, or it is not known.
+    /// The error as `lobe compare` prints it; `None` if nothing changed, or if it is unknown.
     error: Option<Certificate>,
     /// Why there is no error; `None` if there is one.
     no_error: Option<String>,

@@ -50,7 +50,7 @@ pub(crate) fn averages(wavelengths: &[f64]) -> Option<Averages> {
     Some(Averages { names, rows, note })
 }
 
-/// The weights of wavelengths in the solar average, whose sum is 1; the reason if there is none.
+/// The weights of wavelengths in the solar average, whose sum is 1; otherwise, the reason for leaving the average out.
 fn solar(wavelengths: &[f64], order: &[usize]) -> Result<Vec<f64>, String> {
     let all: f64 = DIRECT.iter().map(|[_, _, irradiance]| irradiance).sum();
     let mut weights = vec![0.0; wavelengths.len()];

@@ -66,7 +66,7 @@ struct Saved {
     nodes: Option<String>,
     /// How the channels were changed; `None` if they were not.
     note: Option<String>,
-    /// The error, or why it is not known; `None` if there is none.
+    /// The error, or why it is unknown; `None` if nothing changed.
     stated: Option<Stated>,
 }
 
@@ -125,8 +125,8 @@ impl Saved {
     }
 }
 
-/// The error of a file with the values and nodes of the material; `None` if there is none. There is one if the format
-/// turns the nodes into another representation, whose values between them differ.
+/// The error of a file with the values and nodes of the material; `None` if both are interpolated in the same way. A
+/// format may turn the nodes into another representation, whose values between them differ.
 fn interpolated(
     subject: &Subject,
     format: Format,

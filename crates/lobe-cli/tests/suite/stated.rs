@@ -1,4 +1,4 @@
-//! Every conversion states its error, or why there is none.
+//! Every conversion states its error, or the reason why it states no error.
 
 use lobe_formats::Format;
 

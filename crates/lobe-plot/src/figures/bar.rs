@@ -9,7 +9,7 @@ use crate::svg::{Area, Role, Svg, Text};
 /// The height of a bar.
 const HEIGHT: f64 = 16.0;
 
-/// Where a bar begins from the left, and how long it is.
+/// The left end of a bar, and its length.
 #[derive(Clone, Copy)]
 pub(super) struct Extent {
     pub left: f64,
