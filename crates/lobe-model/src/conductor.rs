@@ -23,9 +23,15 @@ impl Model for Conductor {
         if mirrors == 0.0 {
             return [0.0; 3];
         }
-        let cos = dot(wi, normalize(add(wi, wo)));
+        let cos = half_angle_cosine(wi, wo);
         std::array::from_fn(|c| mirrors * fresnel_conductor(cos, self.eta[c], self.k[c]))
     }
+}
+
+/// The cosine of the angle between either direction and the normal of the facets that mirror one into the other.
+#[inline]
+pub fn half_angle_cosine(wi: [f64; 3], wo: [f64; 3]) -> f64 {
+    dot(wi, normalize(add(wi, wo)))
 }
 
 /// The reflectance of a smooth conductor in vacuum for unpolarised light, from the cosine of the angle of incidence.

@@ -31,7 +31,7 @@ mod ward;
 pub use albedo::albedo;
 pub use blinn::Blinn;
 pub use coated::Coated;
-pub use conductor::{Conductor, fresnel_conductor, fresnel_dielectric};
+pub use conductor::{Conductor, fresnel_conductor, fresnel_dielectric, half_angle_cosine};
 pub use film::Film;
 pub use fresnel::{Elements, fresnel};
 pub use halton::halton;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lobe::formats::{Document, FormatError};
 use lobe::table::Uses;
 use lobe::{Edges, Given, Lookup, Options};
-use lobe_model::{Blinn, Coated, Conductor, Ggx, Model, OrenNayar, Phong, RoughMirrors, Ward, is_isotropic};
+use lobe_model::{Blinn, Coated, Ggx, Model, OrenNayar, Phong, RoughMirrors, Ward, is_isotropic};
 use lobe_spectrum::{Glass, Metal, Spectrum};
 
 use super::Reading;
@@ -14,7 +14,9 @@ use super::film::{Behind as Under, Coat};
 use super::index::{Index, glass};
 use super::node::{Node, SceneError};
 use crate::channels::Channels;
-use crate::shader::{Behind, BsdfShader, Delta, DeltaShader, Lambert, RoughFilm, RoughMetal, Shader, Together};
+use crate::shader::{
+    Behind, BsdfShader, Delta, DeltaShader, Lambert, RoughConductor, RoughFilm, RoughMetal, Shader, Together,
+};
 use crate::shader::{MaterialError, from_document_in, open_sheet_in};
 use crate::shader::{RoughPlastic, Surface};
 use crate::transport::Transport;
@@ -219,10 +221,7 @@ fn model_named<T: Transport>(
                 return Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?));
             }
             let [eta, k] = [&metal.n, &metal.k].map(|index| T::sampled(basis, index));
-            if T::POLARISED {
-                return rough_metal(node, reading, ggx, [eta, k]);
-            }
-            modelled(node, reading, |three| Conductor { ggx, eta: of(&eta, three), k: of(&k, three) })
+            rough_metal(node, reading, ggx, [eta, k])
         }
         "plastic" => {
             let index = node.number("eta", "a refractive index from 1 to 5", |x| (1.0..=5.0).contains(&x))?;
@@ -308,17 +307,23 @@ fn modelled<T: Transport, M: Model + Debug + Send + Sync + 'static>(
     Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?))
 }
 
-/// A metal that polarises.
+/// A rough metal, which polarises light if the transport has polarisation.
 fn rough_metal<T: Transport>(
     node: &Node<'_, '_>,
     reading: &Reading<'_, T>,
     ggx: Ggx,
-    [eta, k]: [T::Spectrum; 2],
+    index: [T::Spectrum; 2],
 ) -> Result<Arc<dyn Shader<T>>, SceneError> {
-    let channels = channels(reading);
-    let index = eta.as_ref().iter().zip(k.as_ref()).take(channels.count()).map(|(n, k)| [*n, *k].map(f64::from));
-    let metal = RoughMetal { mirrors: RoughMirrors { ggx, index: index.collect() }, channels };
+    let (basis, backend, channels) = (reading.world.basis(), reading.backend, channels(reading));
     let isotropic = ggx.alpha[0] == ggx.alpha[1];
-    let shader = BsdfShader::<T>::model_in(reading.world.basis(), metal, isotropic, reading.backend);
+    let [eta, k] = index.map(|index| -> Vec<f64> {
+        index.as_ref().iter().take(channels.count()).map(|value| f64::from(*value)).collect()
+    });
+    let shader = if T::POLARISED {
+        let mirrors = RoughMirrors { ggx, index: eta.into_iter().zip(k).map(|(n, k)| [n, k]).collect() };
+        BsdfShader::<T>::model_in(basis, RoughMetal { mirrors, channels }, isotropic, backend)
+    } else {
+        BsdfShader::<T>::model_in(basis, RoughConductor { ggx, eta, k, channels }, isotropic, backend)
+    };
     Ok(Arc::new(shader.map_err(|error| node.error("model", error.to_string()))?))
 }

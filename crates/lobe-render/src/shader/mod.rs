@@ -21,7 +21,7 @@ pub(crate) use film::RoughFilm;
 pub use film::{FilmElements, FilmTable};
 pub use lambert::Lambert;
 pub use lobe::Backend;
-pub(crate) use models::{RoughMetal, Together};
+pub(crate) use models::{RoughConductor, RoughMetal, Together};
 pub use open::{
     MaterialError, Prepared, from_document, from_document_in, open, open_sheet, open_sheet_in,
     open_sheet_with_progress, open_with,

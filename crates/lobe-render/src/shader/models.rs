@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use lobe::{Bsdf, Directions};
-use lobe_model::{Model, RoughMirrors};
+use lobe_model::{Ggx, Model, RoughMirrors, fresnel_conductor, half_angle_cosine};
 use lobe_table::Channels;
 use lobe_table::mueller::{Matrix, plane_normal, stokes_basis};
 
@@ -36,6 +36,37 @@ impl<M: Model + Debug + Send + Sync> Bsdf for Together<M> {
         each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
             for (out, model) in texel.chunks_mut(3).zip(&self.models) {
                 out.iter_mut().zip(model.f(wi, wo)).for_each(|(out, value)| *out = value as f32);
+            }
+        });
+    }
+}
+
+/// A rough metal, at each channel of a picture: what [`lobe_model::Conductor`] computes, but the facets are evaluated
+/// once for all channels, and the compiler takes Fresnel's equations for several channels at a time.
+#[derive(Debug)]
+pub(crate) struct RoughConductor {
+    pub ggx: Ggx,
+    /// The real part of the refractive index.
+    pub eta: Vec<f64>,
+    /// Its imaginary part.
+    pub k: Vec<f64>,
+    pub channels: Channels,
+}
+
+impl Bsdf for RoughConductor {
+    fn channels(&self) -> &Channels {
+        &self.channels
+    }
+
+    fn eval_batch(&self, _: Backend, wi: Directions<'_>, wo: Directions<'_>, out: &mut [f32]) {
+        each_pair(wi, wo, self.channels.count(), out, |wi, wo, texel| {
+            let mirrors = self.ggx.mirrors(wi, wo);
+            if mirrors == 0.0 {
+                return texel.fill(0.0);
+            }
+            let cos = half_angle_cosine(wi, wo);
+            for ((out, eta), k) in texel.iter_mut().zip(&self.eta).zip(&self.k) {
+                *out = (mirrors * fresnel_conductor(cos, *eta, *k)) as f32;
             }
         });
     }
@@ -110,4 +141,31 @@ pub(super) fn turned(plane: Matrix, [ci, si]: [f64; 2], [co, so]: [f64; 2]) -> M
         (matrix[1][k], matrix[2][k]) = (co * x + so * y, co * y - so * x);
     }
     matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lobe_model::Conductor;
+
+    const UP: [f32; 3] = [0.0, 0.0, 1.0];
+
+    #[test]
+    fn a_rough_conductor_is_the_model_in_each_channel() {
+        let ggx = Ggx { alpha: [0.2, 0.5] };
+        let (eta, k) = (vec![0.2, 0.9, 1.5, 2.4, 1.1], vec![3.9, 2.4, 1.8, 3.3, 0.0]);
+        let channels = Channels::Spectral(vec![400.0, 450.0, 500.0, 550.0, 600.0]);
+        let metal = RoughConductor { ggx, eta: eta.clone(), k: k.clone(), channels };
+        let [wi, wo] = [[UP, [0.6, 0.0, 0.8], [0.0, 0.6, -0.8]], [[0.0, -0.6, 0.8], [0.48, 0.36, 0.8], UP]];
+        let mut found = [-1.0; 15];
+        metal.eval_batch(Backend::best(), (&wi[..]).into(), (&wo[..]).into(), &mut found);
+        for (pair, texel) in found.chunks_exact(5).enumerate() {
+            let [wi, wo] = [wi[pair], wo[pair]].map(|w| w.map(f64::from));
+            for (channel, found) in texel.iter().enumerate() {
+                let model = Conductor { ggx, eta: [eta[channel]; 3], k: [k[channel]; 3] };
+                assert_eq!(*found, model.f(wi, wo)[0] as f32, "pair {pair}, channel {channel}");
+            }
+        }
+        assert!(found[..10].iter().all(|value| *value > 0.0) && found[10..] == [0.0; 5], "{found:?}");
+    }
 }
