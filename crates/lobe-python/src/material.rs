@@ -152,25 +152,48 @@ impl Material {
         Ok(result)
     }
 
-    /// The Mueller matrices in 1/sr for light from wi to wo at a wavelength in nm, as float64 of shape (..., 4, 4), in
-    /// the Stokes frames of the Kaist database. Raises ValueError if the material has no polarisation.
+    /// The Mueller matrices in 1/sr, without the cosine, for light from wi to wo, in the Stokes frames of the Kaist
+    /// database.
+    ///
+    /// At all wavelengths, in SIMD lanes: float32 of shape (..., channels, 4, 4), written to `out` if it is given. At
+    /// one wavelength in nm, between the measured ones if necessary: float64 of shape (..., 4, 4), at many times the
+    /// cost per matrix. Arrays are as in eval(). Raises ValueError if the material has no polarisation.
+    #[pyo3(signature = (wi, wo, wavelength=None, *, out=None))]
     fn mueller<'py>(
         &self,
         py: Python<'py>,
         wi: &Bound<'py, PyAny>,
         wo: &Bound<'py, PyAny>,
-        wavelength: f64,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        wavelength: Option<f64>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let material = &self.opened.material;
+        if !material.is_polarised() {
+            let found = material.kind();
+            return Err(PyValueError::new_err(format!("found {found}; expected a material with polarisation")));
+        }
         let (wi, wo) = (Vectors::<3>::new(wi, "wi")?, Vectors::<3>::new(wo, "wo")?);
         let mut shape = broadcast(["wi", "wo"], wi.shape(), wo.shape())?;
         let (wi, wo) = (wi.batch(&shape)?, wo.batch(&shape)?);
         let (wi, wo) = (wi.directions()?, wo.directions()?);
-        if self.opened.material.mueller([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], wavelength).is_none() {
-            let found = self.opened.material.kind();
-            return Err(PyValueError::new_err(format!("found {found}; expected a material with polarisation")));
+        let Some(wavelength) = wavelength else {
+            let channels = material.channel_count();
+            shape.extend([channels, 4, 4]);
+            let result = output(py, out, &shape)?;
+            let mut written = written(&result)?;
+            let matrices = written.as_slice_mut()?;
+            tasks::evaluate(py, [&wi, &wo], 16 * channels, matrices, &|wi, wo, matrices| {
+                material.mueller_batch(wi, wo, matrices);
+            })?;
+            drop(written);
+            return Ok(result.into_any());
+        };
+        if out.is_some() {
+            return Err(PyValueError::new_err(
+                "out: found with a wavelength; expected only matrices at all wavelengths",
+            ));
         }
         let mut values = Vec::new();
-        let material = &self.opened.material;
         threads::batches(py, wi.count(), |part| {
             for index in part {
                 let matrix = material.mueller(wi.get(index), wo.get(index), wavelength).unwrap_or_default();
@@ -178,7 +201,7 @@ impl Material {
             }
         })?;
         shape.extend([4, 4]);
-        PyArray1::from_vec(py, values).reshape(shape)
+        Ok(PyArray1::from_vec(py, values).reshape(shape)?.into_any())
     }
 
     /// A sampler, which samples directions in proportion to luminance times f times cosine. Building it takes a while.

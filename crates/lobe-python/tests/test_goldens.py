@@ -51,6 +51,25 @@ def test_polarised_matrices_have_the_unpolarised_value(shared):
     np.testing.assert_allclose(matrices[:, 0, 0], material.eval(wi, wo)[:, 2], rtol=1e-4)
 
 
+def test_matrices_of_all_wavelengths_are_those_of_each(fixtures):
+    material = lobe_bsdf.open(fixtures / "standard-7x9x13.mueller")
+    count = len(material.wavelengths)
+    wi = lobe_bsdf.normalize([[0.3, 0.1, 0.8], [0.1, -0.5, 0.6]])
+    wo = lobe_bsdf.normalize([[[-0.2, 0.4, 0.7]], [[0.0, 0.1, 0.9]], [[0.6, 0.0, 0.5]]])
+    matrices = material.mueller(wi, wo)
+    assert matrices.shape == (3, 2, count, 4, 4) and matrices.dtype == np.float32
+    for at, wavelength in enumerate(material.wavelengths):
+        one = material.mueller(wi, wo, wavelength)
+        np.testing.assert_allclose(matrices[:, :, at], one, rtol=1e-4, atol=2e-6 * one.max())
+    np.testing.assert_allclose(matrices[..., 0, 0], material.eval(wi, wo), rtol=1e-4)
+    room = np.zeros_like(matrices)
+    assert material.mueller(wi, wo, out=room) is room and np.array_equal(room, matrices)
+    with pytest.raises(ValueError, match="out: found with a wavelength"):
+        material.mueller(wi, wo, 550.0, out=room)
+
+
 def test_polarisation_is_not_made_up(conductor):
     with pytest.raises(ValueError, match="found specular table; expected a material with polarisation"):
         conductor.mueller([0, 0, 1], [0, 0, 1], 550.0)
+    with pytest.raises(ValueError, match="found specular table; expected a material with polarisation"):
+        conductor.mueller([0, 0, 1], [0, 0, 1])
