@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use lobe::{Material, Options};
-use lobe_formats::Document;
+use lobe_formats::{Document, Format};
 use lobe_ops::Subject;
 use lobe_ops::certificate::{Certificate, DraftError, Stated};
 
@@ -44,9 +44,9 @@ impl<'a> Source<'a> {
         self.file.file_name().unwrap_or_default().to_string_lossy()
     }
 
-    /// Compares a written file with the source.
-    pub fn certify(&self, written: &Path) -> Result<Stated, Failure> {
-        Ok(Certificate::of_file(&self.subject, self.channel, written)?)
+    /// The error of a written file with the values and nodes of the source; `None` if it is the same between them.
+    pub fn certify_kept(&self, format: Format, written: &Path) -> Result<Option<Stated>, Failure> {
+        Ok(Certificate::of_kept(&self.subject, self.channel, format, written)?)
     }
 
     /// Compares what would be read from a written document with the source.

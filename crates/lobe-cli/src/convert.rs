@@ -177,7 +177,7 @@ fn written(document: Document, args: &Args) -> Result<Answer, Failure> {
 struct Kept {
     /// How the channels were changed; `None` if they were not.
     note: Option<String>,
-    /// The error, if the format turns the nodes into another representation, whose values between them differ.
+    /// The error, if the values between the nodes differ.
     stated: Option<Stated>,
 }
 
@@ -188,13 +188,8 @@ fn kept(document: &Document, target: Target, args: &Args) -> Result<Option<Kept>
     let written = || -> Result<Option<Kept>, Failure> {
         let Some(written) = convert(document, format, channel, out)? else { return Ok(None) };
         let mut kept = Kept { note: written.note, stated: None };
-        if format.spec().read.is_some() {
-            let (_, read) = lobe_formats::open(out)?;
-            if read.kinds() != document.kinds()
-                && let Some(source) = Source::new(&args.file, document, target, channel)
-            {
-                kept.stated = Some(source.certify(out)?);
-            }
+        if let Some(source) = Source::new(&args.file, document, target, channel) {
+            kept.stated = source.certify_kept(format, out)?;
         }
         Ok(Some(kept))
     };
@@ -216,7 +211,7 @@ fn kept(document: &Document, target: Target, args: &Args) -> Result<Option<Kept>
     let note = kept.note.as_ref().map(|note| format!("; {note}")).unwrap_or_default();
     say(format_args!("{}: {format}, with the values and nodes of the file{note}", out.display()));
     if let Some(stated) = &kept.stated {
-        say("  between the nodes, this format is interpolated differently");
+        say("  between the nodes, the file is interpolated differently");
         report(stated);
     }
     Ok(Some(kept))

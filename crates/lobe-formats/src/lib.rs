@@ -62,6 +62,7 @@ pub mod reading;
 mod records;
 mod registry;
 #[cfg(feature = "rgl")]
+mod restored;
 pub mod rgl;
 mod sheet;
 pub mod sidecar;

@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 
 use lobe_table::specular::coords::angles_to_directions;
-use lobe_table::{Data, Scatter, specular, spherical};
+use lobe_table::{Data, Scatter, scattered, specular, spherical};
 
 use crate::Document;
+use crate::angle::Unit;
+use crate::restored::Written;
 
-/// A pair of directions, `theta_i`, `phi_i`, `theta_o` and `phi_o` in radians, and its channels.
+/// A pair of directions, `theta_i`, `phi_i`, `theta_o` and `phi_o`, and its channels.
 pub(crate) struct Sample<'a> {
     pub angles: [f64; 4],
     pub values: &'a [f32],
@@ -23,14 +25,39 @@ pub(crate) fn is_listed(document: &Document) -> bool {
     })
 }
 
-/// The samples of a document that [`is_listed`], by incident direction; `None` for any other document.
+/// The samples of a document that [`is_listed`], by incident direction, in radians; `None` for any other document.
 pub(crate) fn samples(document: &Document) -> Option<Vec<Sample<'_>>> {
     match document.only().filter(|_| is_listed(document))? {
-        Data::Scattered(data) => Some(data.samples().map(|(angles, values)| Sample { angles, values }).collect()),
+        Data::Scattered(data) => Some(samples_in(data, Written { unit: Unit::Rad, turn: 0.0 })),
         Data::Specular(data) => Some(of_specular(data)),
         Data::Spherical(data) => Some(of_spherical(data)),
         _ => None,
     }
+}
+
+/// Samples with the angles of a file, of which readers turn the light by `turn`, and the unit of the angles: degrees,
+/// or radians if degrees would not restore one of the samples bit for bit.
+pub(crate) fn samples_of(data: &scattered::Data, turn: f64) -> (Vec<Sample<'_>>, Unit) {
+    let in_degrees = Written { unit: Unit::Deg, turn };
+    let restored = data.relative_samples().map(|(angles, values)| {
+        let angles = in_degrees.restoring(angles)?;
+        Some(Sample { angles, values })
+    });
+    match restored.collect::<Option<Vec<_>>>() {
+        Some(samples) => (samples, Unit::Deg),
+        None => (samples_in(data, Written { unit: Unit::Rad, turn }), Unit::Rad),
+    }
+}
+
+/// Samples with angles that readers restore, or restore except for rounding.
+fn samples_in(data: &scattered::Data, written: Written) -> Vec<Sample<'_>> {
+    let samples = data.relative_samples().map(|(angles, values)| {
+        let [theta_i, phi_i, theta_o, relative] = angles;
+        let near = [theta_i, phi_i - written.turn, theta_o, phi_i + relative];
+        let angles = written.restoring(angles).unwrap_or_else(|| near.map(|angle| angle / written.unit.radians()));
+        Sample { angles, values }
+    });
+    samples.collect()
 }
 
 /// The smallest z of the directions of listed nodes: the values of lower nodes are extrapolated from those above.

@@ -43,6 +43,12 @@ pub enum DraftError {
     Read(#[from] OpenError),
 }
 
+/// A file that keeps values and nodes rounds them: differences up to this are not an error. It is the root mean square
+/// of the difference relative to that of the values.
+pub const ROUNDED: f64 = 2e-6;
+/// The same for the largest difference, relative to the largest value.
+const ROUNDED_PEAK: f64 = 1e-5;
+
 /// The error of a file, or the reason why none is stated.
 pub type Stated = Result<Certificate, Unstated>;
 
@@ -54,6 +60,37 @@ impl Certificate {
     pub fn of_file(source: &Subject, channel: Option<&str>, written: &Path) -> Result<Stated, OpenError> {
         let written = Subject::open(written, &Options::default())?;
         Ok(certify(source, &written, channel, PAIRS).map(Certificate).map_err(Unstated::from))
+    }
+
+    /// The error of a file with the values and nodes of its source, of which only `channel` was written if there is one.
+    /// `None` if the values between the nodes are the same too, except for rounding, or if lobe does not read the format.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn of_kept(
+        source: &Subject,
+        channel: Option<&str>,
+        format: Format,
+        written: &Path,
+    ) -> Result<Option<Stated>, OpenError> {
+        if format.spec().read.is_none() {
+            return Ok(None);
+        }
+        let written = Subject::open(written, &Options::default())?;
+        Ok(Certificate::between_nodes(source, &written, channel))
+    }
+
+    /// The same for a file that was read.
+    ///
+    /// The format may turn the nodes into another representation; and samples that are listed in another order, or whose
+    /// angles are rounded, may be joined to other triangles.
+    pub fn between_nodes(source: &Subject, written: &Subject, channel: Option<&str>) -> Option<Stated> {
+        let is_same_kind = source.document.kinds() == written.document.kinds();
+        match certify(source, written, channel, PAIRS) {
+            Ok(errors) if is_same_kind && errors.iter().all(is_rounding) => None,
+            Err(_) if is_same_kind => None,
+            certified => Some(certified.map(Certificate).map_err(Unstated::from)),
+        }
     }
 
     /// Compares what would be read from a file: writes the document to a temporary folder, under the name of the file,
@@ -100,6 +137,10 @@ impl Certificate {
     pub fn line(&self) -> String {
         self.lines().collect::<Vec<_>>().join("; ")
     }
+}
+
+fn is_rounding(Certified { difference, .. }: &Certified) -> bool {
+    difference.relative_rms <= ROUNDED && difference.max <= ROUNDED_PEAK * difference.peak
 }
 
 /// Does work on a file of the same name in a temporary folder.

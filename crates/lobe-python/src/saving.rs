@@ -125,24 +125,6 @@ impl Saved {
     }
 }
 
-/// The error of a file with the values and nodes of the material; `None` if both are interpolated in the same way. A
-/// format may turn the nodes into another representation, whose values between them differ.
-fn interpolated(
-    subject: &Subject,
-    format: Format,
-    channel: Option<&str>,
-    file: &Path,
-) -> Result<Option<Stated>, Failure> {
-    if format.spec().read.is_none() {
-        return Ok(None);
-    }
-    let (_, read) = lobe_formats::open(file)?;
-    if read.kinds() == subject.document.kinds() {
-        return Ok(None);
-    }
-    Ok(Some(Certificate::of_file(subject, channel, file)?))
-}
-
 /// Writes values and nodes unchanged; `None` if the format cannot hold them. If the error is larger than the bound, no
 /// file is written.
 fn kept(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>) -> Result<Option<Saved>, Failure> {
@@ -152,7 +134,7 @@ fn kept(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>) -> 
         let draft = folder.path().join(path.file_name().unwrap_or_default());
         // What cannot be written is reported below, with the name of the file.
         if let Ok(Some(_)) = write(&draft)
-            && let Some(stated) = interpolated(subject, format, wanted.channel, &draft)?
+            && let Some(stated) = Certificate::of_kept(subject, wanted.channel, format, &draft)?
         {
             let error = bounded(stated, path)?.worst();
             if error > bound {
@@ -162,7 +144,7 @@ fn kept(subject: &Subject, format: Format, path: &Path, wanted: &Wanted<'_>) -> 
         }
     }
     let Some(written) = write(path).map_err(unconverted)? else { return Ok(None) };
-    let stated = interpolated(subject, format, wanted.channel, path)?;
+    let stated = Certificate::of_kept(subject, wanted.channel, format, path)?;
     Ok(Some(Saved { format, nodes: None, note: written.note, stated }))
 }
 

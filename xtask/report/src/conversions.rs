@@ -12,6 +12,7 @@ use lobe_model::goniometer::spherical::uniform_half;
 use lobe_model::goniometer::tensor_tree::Refinement;
 use lobe_model::is_isotropic;
 use lobe_ops::Subject;
+use lobe_ops::certificate::{Certificate, ROUNDED};
 use lobe_ops::certify::{PAIRS, certify, worst};
 use lobe_ops::remeasure::{Mapped, MaterialSurface, Nodes, Sides, remeasure, resampled_matrices};
 use lobe_table::window::klems::{self, AngleBasis};
@@ -25,8 +26,6 @@ pub const ID: &str = "conversions";
 
 /// Pairs of directions at which the error is stated, and at which it is found.
 const PAIR_COUNTS: [usize; 2] = [PAIRS, 2 * PAIRS];
-/// Values that are kept may be rounded by this much.
-const ROUNDED: f64 = 2e-6;
 /// The error that is found may be larger than the stated one by this factor, as it is an estimate from finitely many
 /// pairs.
 const MARGIN: f64 = 1.2;
@@ -172,8 +171,11 @@ fn conversion(source: &Subject, from: &Holder, to: &Holder) -> anyhow::Result<Co
                 let certified = certify(source, &file.subject, file.channel.as_deref(), pairs).unwrap_or_default();
                 (!certified.is_empty()).then(|| worst(&certified))
             };
-            let is_same = file.is_kept && file.subject.document.kinds() == source.document.kinds();
-            let stated = if is_same { None } else { error(PAIR_COUNTS[0]) };
+            let stated = match file.is_kept {
+                true => Certificate::between_nodes(source, &file.subject, file.channel.as_deref())
+                    .and_then(|stated| stated.ok().map(|certificate| certificate.worst())),
+                false => error(PAIR_COUNTS[0]),
+            };
             let found = error(PAIR_COUNTS[1]);
             let refused = found.is_none().then(|| "written, but with no channel to compare".to_owned());
             Ok(Conversion { from: from_name, to: to_name, stated, found, refused })

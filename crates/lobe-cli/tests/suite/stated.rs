@@ -144,3 +144,43 @@ fn a_bound_of_kept_nodes_leaves_no_file() {
     assert!(code == 3, "{said}");
     assert!(!out.exists());
 }
+
+/// Samples whose values and nodes are kept, but not always the triangles between them: whatever is said of the error
+/// must be what `lobe compare` finds.
+#[test]
+fn kept_samples_state_what_lies_between_them() {
+    let files = Files::new();
+    let table = spectral(&[550.0]);
+    let (names, rows) = table.split_once('\n').expect("rows");
+    let (forward, backward) = (rows.lines().collect::<Vec<_>>(), rows.lines().rev().collect::<Vec<_>>());
+    let (mut kept, mut stated) = (0, 0);
+    let mut convert = |from: &std::path::Path, name: &str, to: &str| {
+        let out = files.path(name);
+        let answer = json(&["convert", text(from), text(&out), "--to", to]);
+        assert!(answer["resampled"].is_null(), "{to}: {answer}");
+        let found = json(&["compare", text(from), text(&out), "--pixels", "8"]);
+        let (rms, peak) = (first(&found, "relative_rms"), first(&found, "peak"));
+        if answer["error"].is_null() {
+            assert_eq!(answer["no_error"], "the values and nodes are those of the file", "{to}");
+            assert!(rms <= 2e-6 && first(&found, "max") <= 1e-5 * peak, "{name}: {found}");
+            kept += 1;
+        } else {
+            assert_eq!(first(&answer["error"], "relative_rms"), rms, "{name}");
+            stated += 1;
+        }
+        (out, rms)
+    };
+    for (order, rows) in [("forward", &forward), ("backward", &backward)] {
+        let samples = files.write(&format!("{order}.csv"), &format!("# rows: samples\n{names}\n{}\n", rows.join("\n")));
+        for (extension, to) in [("astm", "astm"), ("csv", "csv")] {
+            assert_eq!(convert(&samples, &format!("{order}-copy.{extension}"), to).1, 0.0, "{order} to {to}");
+        }
+        let (speos, rms) = convert(&samples, &format!("{order}.brdf"), "speos");
+        // A table lists its samples in its own order, so other triangles are taken.
+        assert!(order == "forward" || rms > 1e-4, "{rms}");
+        for (extension, to) in [("astm", "astm"), ("csv", "csv"), ("brdf", "speos")] {
+            convert(&speos, &format!("{order}-again.{extension}"), to);
+        }
+    }
+    assert!(kept >= 6 && stated >= 1, "{kept} {stated}");
+}

@@ -11,7 +11,7 @@ use crate::spec::unfit;
 use crate::{Document, FormatError};
 
 /// Writes `path` completely or not at all: one record per sample, or per node above the horizon. Values are read back
-/// bit for bit, angles within the rounding of a sum.
+/// bit for bit, and so are the angles of samples.
 ///
 /// # Errors
 /// [`FormatError`] if the file cannot be written, or the document is not a list of samples of a reflectance.

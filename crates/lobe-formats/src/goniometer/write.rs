@@ -1,13 +1,13 @@
 //! Writes tables with named columns as CSV.
 
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use lobe_table::{Channels, Data, Scatter};
 
 use super::{ROWS, Rows, SPECULAR, SPHERICAL, TRANSMISSION};
-use crate::angle::{Unit, exact_degrees};
+use crate::angle::Unit;
+use crate::listed::samples_of;
 use crate::{FormatError, Place};
 use lobe_files::write_whole;
 
@@ -61,13 +61,9 @@ pub fn write(data: &Data, path: &Path) -> Result<(), FormatError> {
         }
         Data::Scattered(scattered) => {
             rows(&mut out, Some(Rows::Samples));
-            let in_degrees: Option<Vec<[f64; 4]>> =
-                scattered.relative_samples().map(|(angles, _)| all_in_degrees(angles)).collect();
-            header(&mut out, &SPHERICAL, if in_degrees.is_some() { "deg" } else { "rad" }, &channels);
-            for (index, (angles, values)) in scattered.relative_samples().enumerate() {
-                let angles = in_degrees.as_ref().map_or_else(|| exact_radians(angles), |degrees| degrees[index]);
-                line(&mut out, angles.into_iter(), values);
-            }
+            let (samples, unit) = samples_of(scattered, 0.0);
+            header(&mut out, &SPHERICAL, if unit == Unit::Deg { "deg" } else { "rad" }, &channels);
+            samples.iter().for_each(|sample| line(&mut out, sample.angles.into_iter(), sample.values));
         }
         other => {
             let found = other.representation().kind().name();
@@ -94,47 +90,6 @@ fn rows(out: &mut String, rows: Option<Rows>) {
     if let Some(rows) = rows {
         let _ = writeln!(out, "# {ROWS}: {}", rows.word());
     }
-}
-
-/// `true` if a reader restores a sample from these angles, whose last azimuth is measured from the incident one.
-fn is_restored([theta_i, phi_i, theta_o, relative]: [f64; 4], read: [f64; 4]) -> bool {
-    let pairs =
-        [(theta_i, read[0]), (phi_i, read[1]), (theta_o, read[2]), (relative, (read[3] - read[1]).rem_euclid(TAU))];
-    pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
-}
-
-/// The angles of a file in degrees, with the fewest digits that a reader converts to the same radians; `None` if no
-/// digits do.
-fn all_in_degrees(angles: [f64; 4]) -> Option<[f64; 4]> {
-    let unit = Unit::Deg.radians();
-    let [theta_i, phi_i, theta_o, relative] = angles;
-    let (a, b, c) = (exact_degrees(theta_i)?, exact_degrees(phi_i)?, exact_degrees(theta_o)?);
-    let candidates = outgoing(phi_i, relative)
-        .map(f64::to_degrees)
-        .flat_map(|near| [(near * 1e9).round() / 1e9, near, near.next_up(), near.next_down()]);
-    let restored = |d: &f64| is_restored(angles, [a, b, c, *d].map(|degrees| degrees * unit));
-    candidates.into_iter().find(restored).map(|d| [a, b, c, d])
-}
-
-/// The angles of a file in radians.
-fn exact_radians(angles: [f64; 4]) -> [f64; 4] {
-    let [theta_i, phi_i, theta_o, relative] = angles;
-    let restored = |d: &f64| is_restored(angles, [theta_i, phi_i, theta_o, *d]);
-    let phi_o = outgoing(phi_i, relative).find(restored).unwrap_or(phi_i + relative);
-    [theta_i, phi_i, theta_o, phi_o]
-}
-
-/// The number of neighbours of an azimuth that are tried.
-const ULPS: usize = 40;
-
-/// Azimuths that may have been the outgoing one of a file, before it became a difference.
-fn outgoing(phi_i: f64, relative: f64) -> impl Iterator<Item = f64> {
-    let phi_o = phi_i + relative;
-    let turns = [phi_o, phi_o - TAU, phi_o - 2.0 * TAU];
-    // Subtracting a turn left the rounding of a larger number.
-    let up = |x: f64| std::iter::successors(Some(x), |x| Some(x.next_up())).take(ULPS);
-    let down = |x: f64| std::iter::successors(Some(x.next_down()), |x| Some(x.next_down())).take(ULPS);
-    turns.into_iter().flat_map(move |x| up(x).chain(down(x))).chain([0.0])
 }
 
 /// Writes 15 degrees as 15, although a conversion through radians gives 14.999999999999998.

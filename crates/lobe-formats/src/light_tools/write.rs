@@ -6,7 +6,7 @@ use std::path::Path;
 use lobe_files::write_whole;
 use lobe_table::{Channels, Data, Scatter, Side, spherical};
 
-use crate::angle::degrees;
+use crate::angle::{degrees, exact_degrees};
 use crate::spec::{resampled, unfit};
 use crate::text::push_row;
 use crate::totals::integrals;
@@ -76,7 +76,7 @@ pub(super) fn write(document: &Document, path: &Path) -> Result<(), FormatError>
     push_degrees(&mut out, columns.iter().map(|column| column.azimuth));
     let radials = &first.knots()[2];
     let _ = writeln!(out, "ScatterRadial {}", radials.len());
-    push_degrees(&mut out, radials.iter().map(|theta| degrees(*theta)));
+    push_degrees(&mut out, radials.iter().map(|theta| restored(*theta)));
     out.push_str("DataBegin\n");
     for (side, grid) in grids {
         tables(&mut out, document, side, grid, &columns);
@@ -111,11 +111,24 @@ fn columns(grids: &[Measured<'_>], path: &Path) -> Result<Vec<Column>, FormatErr
     if !first.is_mirrored() && kept > 1 && knots.iter().zip(nexts).any(|(knot, next)| next - knot >= 180.0 - SAME) {
         return refuse(format!("azimuths {knots:?}"), "steps of less than half a turn in this format");
     }
-    let azimuth = |phi: f64| degrees((phi + 90.0).rem_euclid(360.0).to_radians());
-    let mut columns: Vec<Column> =
-        knots.iter().enumerate().map(|(index, phi)| Column { azimuth: azimuth(*phi), index }).collect();
+    let azimuth = |index: usize| turned(first.knots()[3][index]);
+    let mut columns: Vec<Column> = (0..kept).map(|index| Column { azimuth: azimuth(index), index }).collect();
     columns.sort_by(|a, b| a.azimuth.total_cmp(&b.azimuth));
     Ok(columns)
+}
+
+/// Degrees from which readers restore an angle, or the nearest with few digits if there are none.
+fn restored(angle: f64) -> f64 {
+    exact_degrees(angle).unwrap_or_else(|| degrees(angle))
+}
+
+/// The azimuth in the file, in degrees, from which readers restore an azimuth, or the nearest with few digits.
+fn turned(phi: f64) -> f64 {
+    let few = degrees((degrees(phi) + 90.0).rem_euclid(360.0).to_radians());
+    let near = (restored(phi) + 90.0).rem_euclid(360.0);
+    let candidates = [few, near, near.next_up(), near.next_down()];
+    let read = |azimuth: f64| (azimuth - 90.0).rem_euclid(360.0).to_radians();
+    candidates.into_iter().find(|azimuth| read(*azimuth) == phi).unwrap_or(few)
 }
 
 /// `true` if the first and the last azimuth have the same values.
@@ -141,7 +154,7 @@ fn tables(out: &mut String, document: &Document, side: Side, grid: &spherical::D
     let count = states.len();
     let slices = aois.iter().flat_map(|aoi| pois.iter().map(move |poi| (*aoi, *poi)));
     for (slice, (aoi, poi)) in slices.enumerate() {
-        let _ = writeln!(out, "AOI {}\nPOI {}\nSide {side}\nScatterType {scatter}", degrees(aoi), degrees(poi));
+        let _ = writeln!(out, "AOI {}\nPOI {}\nSide {side}\nScatterType {scatter}", restored(aoi), restored(poi));
         for (channel, state) in states.iter().enumerate() {
             if !state.is_empty() {
                 let _ = writeln!(out, "{state}");
