@@ -4,6 +4,7 @@ use std::io::{Write, stdout};
 use std::path::PathBuf;
 
 use clap_complete::Shell;
+use lobe_files::{check_folder, unwritable};
 
 use crate::command;
 use crate::failure::Failure;
@@ -45,9 +46,12 @@ pub fn man(args: &Man) -> Result<(), Failure> {
             clap_mangen::Man::new(command()).render(&mut page)?;
             print(&page)
         }
-        Some(folder) => std::fs::create_dir_all(folder)
-            .and_then(|()| clap_mangen::generate_to(command(), folder))
-            .map_err(|error| Failure::File(format!("{}: {error}", folder.display()))),
+        Some(folder) => {
+            check_folder(folder)?;
+            std::fs::create_dir_all(folder)
+                .and_then(|()| clap_mangen::generate_to(command(), folder))
+                .map_err(|error| unwritable(folder, &error).into())
+        }
     }
 }
 

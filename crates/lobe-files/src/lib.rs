@@ -19,4 +19,4 @@ pub use memory::{Files, exists, files_of, in_memory, is_folder};
 pub use printable::printable;
 pub use read::{Reads, begins_with, bytes, is_standard_input, name_standard_input, read, recorded};
 pub use unpack::{Unpacked, inflated, is_gzip, unpacked};
-pub use write::{SIDECAR, check_output, replace, unwritable, write_whole};
+pub use write::{SIDECAR, check_folder, check_output, replace, unwritable, write_whole};

@@ -65,10 +65,11 @@ pub fn check_output<P: AsRef<Path>>(path: &Path, inputs: &[P]) -> Result<(), For
         let found = "the name of a sidecar, which says how another file is read";
         return Err(FormatError::new(path, Place::File, found, "another file to write"));
     }
-    if let Ok(output) = target.canonicalize() {
+    if let Some(output) = located(&target) {
+        let is_there = target.exists();
         let same = |input: &&P| {
-            let input = input.as_ref().canonicalize().ok();
-            input.is_some_and(|input| input == output || output.parent() == Some(&*input))
+            let input = self::target(input.as_ref()).unwrap_or_else(|_| input.as_ref().to_path_buf());
+            located(&input).is_some_and(|input| input == output || is_there && output.parent() == Some(&*input))
         };
         if let Some(input) = inputs.iter().find(same) {
             return Err(read(input.as_ref()));
@@ -83,6 +84,24 @@ pub const SIDECAR: &str = ".lobe.toml";
 /// Whether this is the name of a sidecar, on systems that do not distinguish the case of letters as well.
 fn is_sidecar(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().to_ascii_lowercase().ends_with(SIDECAR))
+}
+
+/// The place of a file that may not exist yet: another output of the same program is none.
+fn located(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok().or_else(|| Some(folder(path).canonicalize().ok()?.join(path.file_name()?)))
+}
+
+/// Checks that `path` is or may become a folder, for programs that write several files into one.
+///
+/// # Errors
+/// [`FormatError`] names `path`, what is there, and what is expected.
+pub fn check_folder(path: &Path) -> Result<(), FormatError> {
+    let refuse = |found: &str| Err(FormatError::new(path, Place::File, found, "the name of a folder"));
+    match path.metadata() {
+        _ if is_standard_input(path) => refuse("the standard input"),
+        Ok(metadata) if !metadata.is_dir() => refuse(not_a_file(&metadata).unwrap_or("a file")),
+        _ => Ok(()),
+    }
 }
 
 /// Follows links, and checks that there is nothing or a writable file.
@@ -209,6 +228,12 @@ mod tests {
             let error = check_output(output, &[&b, &a]).unwrap_err();
             assert!(error.expected == "another file to write" && error.found.ends_with("used otherwise"), "{error}");
         }
+        // Another output that does not exist yet, by another name.
+        let new = folder.path().join("new");
+        std::fs::create_dir(folder.path().join("below")).unwrap();
+        assert!(check_output(&new, &[folder.path().join("below/../new")]).is_err());
+        check_output(&new, &[folder.path().join("below/new")]).unwrap();
+        std::fs::remove_dir(folder.path().join("below")).unwrap();
         // Sidecars are inputs of every reader, whether they exist or not.
         for sidecar in ["a.lobe.toml", "new.csv.LOBE.toml", ".lobe.toml"] {
             let error = check_output::<PathBuf>(&folder.path().join(sidecar), &[]).unwrap_err();
@@ -219,6 +244,16 @@ mod tests {
         assert!(check_output(&a, &[folder.path()]).is_err());
         check_output(&b, &[folder.path()]).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn folders_are_not_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a");
+        std::fs::write(&file, "a").unwrap();
+        check_folder(folder.path()).unwrap();
+        check_folder(&folder.path().join("none/below")).unwrap();
+        assert_eq!(check_folder(&file).unwrap_err().found, "a file");
     }
 
     #[test]
@@ -261,6 +296,8 @@ mod tests {
         assert!(check_output::<PathBuf>(&path("other"), &[]).unwrap_err().found.contains("sidecar"));
         // A link to an input counts as the input.
         assert!(check_output(&path("chain"), &[path("below/file")]).is_err());
+        symlink("later", path("to-later")).unwrap();
+        assert!(check_output(&path("later"), &[path("to-later")]).is_err());
     }
 
     #[cfg(unix)]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe_files::write_whole;
+use lobe_files::{check_folder, unwritable, write_whole};
 
 use super::plan::Plan;
 use crate::failure::Failure;
@@ -20,6 +20,7 @@ pub fn part(folder: &Path, part: u32) -> PathBuf {
 /// # Errors
 /// If the folder cannot be created, or has parts of another plan.
 pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
+    check_folder(folder)?;
     let file = folder.join(PLAN);
     if file.exists() {
         let earlier = read(folder)?;
@@ -35,8 +36,7 @@ pub fn begin(folder: &Path, plan: &Plan) -> Result<(), Failure> {
             )));
         }
     }
-    std::fs::create_dir_all(folder.join("log"))
-        .map_err(|error| Failure::File(format!("{}: {error}", folder.display())))?;
+    std::fs::create_dir_all(folder.join("log")).map_err(|error| unwritable(folder, &error))?;
     Ok(write_whole(&file, serde_json::to_string_pretty(plan)?.as_bytes())?)
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lobe_files::{check_output, write_whole};
+use lobe_files::{check_folder, check_output, write_whole};
 use serde_json::{Value, json};
 
 use super::files::{begin, path, quoted};
@@ -43,6 +43,7 @@ fn name(text: &str) -> Result<String, String> {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    check_folder(&args.output)?;
     let planned = args.wanted.plan()?;
     let folder = absolute(&args.output)?;
     begin(&folder, &planned.plan)?;

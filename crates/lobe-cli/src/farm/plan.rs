@@ -88,6 +88,10 @@ impl Wanted {
     /// # Errors
     /// If the scene cannot be read, or cannot be divided in this way.
     pub fn plan(&self) -> Result<Planned, Failure> {
+        if lobe_files::is_standard_input(&self.scene) {
+            let message = "-: found the standard input, which the machines that render cannot read; expected a file";
+            return Err(Failure::Usage(message.into()));
+        }
         let backend = match &self.backend {
             Some(name) => Backend::named(name).map_err(|error| Failure::Usage(error.to_string()))?,
             None => Backend::detect().map_err(|error| Failure::Usage(format!("LOBE_BACKEND: {error}")))?,
