@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lobe::{Material, Options};
 use lobe_files::check_output;
+use lobe_formats::reading::OF_ALL_FORMATS;
 use lobe_formats::{Document, Format, FormatError, Place, ReadOptions, open_with, sidecar, write_whole};
 use lobe_ops::Subject;
 use lobe_ops::check::{Finding, Status, Thoroughness, check};
@@ -76,8 +77,11 @@ struct Report {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let file = args.file.as_path();
+    let sidecar = sidecar::path_of(file);
+    let mut others = vec![file, &sidecar];
     for output in args.out.iter().chain(&args.plot) {
-        check_output(output, &[file, &sidecar::path_of(file)])?;
+        check_output(output, &others)?;
+        others.push(output);
     }
     let given = args.reading.options();
     let mut options = given.clone().or(sidecar::find(file)?);
@@ -107,6 +111,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                     return Err(error.into());
                 }
             }
+            Err(error) if error.expected == OF_ALL_FORMATS => return Err(args.reading.failure(error)),
             Err(error) => return Err(explained(error, file)),
         }
     };
@@ -130,15 +135,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         sidecar: kept.then(|| sidecar::path_of(file).display().to_string()),
         options: kept.then(|| sidecar::to_text(&options, &name(file))),
     };
-    let mut out = message::out(args.json);
-    if args.json {
-        serde_json::to_writer_pretty(&mut out, &report)?;
-        writeln!(out)?;
-    } else {
-        report.print(&mut out, document)?;
-    }
-    out.flush()?;
-    drop(out);
+    // The files are written even if nobody reads what is printed.
+    let printed = report.print_all(args.json, document);
     if let Some(page) = &args.plot {
         plot::write(file, format, document, page)?;
         say(format_args!("{}: written", page.display()));
@@ -146,6 +144,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(out) = &args.out {
         convert::write(file, document.clone(), out, args.to)?;
     }
+    printed?;
     match has_failed {
         true => Err(Failure::Check(format!("{}: a check failed: see FAIL above", file.display()))),
         false => Ok(()),
@@ -173,6 +172,17 @@ fn name(file: &Path) -> String {
 }
 
 impl Report {
+    fn print_all(&self, is_json: bool, document: &Document) -> Result<(), Failure> {
+        let mut out = message::out(is_json);
+        if is_json {
+            serde_json::to_writer_pretty(&mut out, self)?;
+            writeln!(out)?;
+        } else {
+            self.print(&mut out, document)?;
+        }
+        Ok(out.flush()?)
+    }
+
     fn print(&self, out: &mut impl Write, document: &Document) -> Result<(), Failure> {
         writeln!(out, "{}: {}", self.file, self.format)?;
         show(out, document)?;

@@ -40,6 +40,7 @@ mod target;
 mod threads;
 mod view;
 
+use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -98,9 +99,9 @@ fn with_exit_codes(command: clap::Command) -> clap::Command {
 }
 
 fn main() -> ExitCode {
-    let cli = match Cli::from_arg_matches(&command().get_matches()) {
+    let cli = match command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(error) => error.exit(),
+        Err(error) => return explain(&error),
     };
     lobe_files::name_standard_input();
     if !matches!(cli.command, Command::Info(_) | Command::View(_) | Command::Completions(_) | Command::Man(_)) {
@@ -127,6 +128,18 @@ fn main() -> ExitCode {
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
     };
+    end(done)
+}
+
+/// Prints a help text, or what is wrong with the arguments.
+fn explain(error: &clap::Error) -> ExitCode {
+    match error.print().and_then(|()| stdout().flush()) {
+        Err(unwritten) if !error.use_stderr() => end(Err(unwritten.into())),
+        _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
+    }
+}
+
+fn end(done: Result<(), Failure>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::OutputClosed) => ExitCode::SUCCESS,

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use lobe::{Material, Options};
 use lobe_formats::goniometer::Unit;
-use lobe_formats::reading::{AzimuthFrom, Column, Holds, InPlane, Quantity, Scale, parse_columns};
-use lobe_formats::{Document, Format, ReadOptions, open_with};
+use lobe_formats::reading::{AzimuthFrom, Column, Holds, InPlane, OF_ALL_FORMATS, Quantity, Scale, parse_columns};
+use lobe_formats::{Document, Format, FormatError, ReadOptions, open_with};
 use lobe_ops::Subject;
 
 use crate::failure::Failure;
@@ -67,7 +67,15 @@ impl Reading {
 
     /// Opens a file; its sidecar supplies options that the user does not give.
     pub fn open(&self, path: &Path) -> Result<(Format, Document), Failure> {
-        Ok(open_with(path, &self.options())?)
+        open_with(path, &self.options()).map_err(|error| self.failure(error))
+    }
+
+    /// The failure to open a file: wrong usage if an option of the user does not apply to it.
+    pub fn failure(&self, error: FormatError) -> Failure {
+        match error.expected == OF_ALL_FORMATS && !self.options().is_empty() {
+            true => Failure::Usage(error.to_string()),
+            false => error.into(),
+        }
     }
 
     /// Refuses options for a file to which none applies.

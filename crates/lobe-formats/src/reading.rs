@@ -242,8 +242,10 @@ impl ReadOptions {
         if given.is_empty() {
             return Ok(());
         }
-        let found =
-            format!("{}, which only apply to tables with named columns, for a file of {format}", given.join(", "));
-        Err(FormatError::new(path, Place::File, found, "only values and scale"))
+        let found = format!("options for tables with named columns ({}), for a file of {format}", given.join(", "));
+        Err(FormatError::new(path, Place::File, found, OF_ALL_FORMATS))
     }
 }
+
+/// What is expected if options are given that do not apply to the format of a file.
+pub const OF_ALL_FORMATS: &str = "only values and scale";
