@@ -17,6 +17,13 @@ use crate::progress::Progress;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angles(pub Vec<f64>);
 
+impl Angles {
+    /// Degrees, without the digits that their conversion to radians added.
+    pub fn degrees(&self) -> Vec<f64> {
+        self.0.iter().map(|angle| (angle.to_degrees() * 1e9).round() / 1e9).collect()
+    }
+}
+
 /// The longest list: more knots than any instrument has positions.
 const LONGEST: f64 = 100_000.0;
 
@@ -41,6 +48,24 @@ pub fn parse_angles(text: &str) -> Result<Angles, String> {
         }
     }
     Ok(Angles(angles.into_iter().map(f64::to_radians).collect()))
+}
+
+/// Refuses knots in degrees that no table has: sigma, psi, theta and phi.
+pub fn check_knots(file: &Path, knots: [&[f64]; 4]) -> Result<(), Failure> {
+    let axes = [("sigma", 90.0), ("psi", 360.0), ("theta", 180.0), ("phi", 360.0)];
+    for ((name, most), knots) in axes.into_iter().zip(knots) {
+        let refuse = |found: String, expected: &str| {
+            Err(Failure::Usage(format!("{}: found {name} knots {found}; expected {expected}", file.display())))
+        };
+        // Knots of a sequence are rounded.
+        if let Some(knot) = knots.iter().find(|knot| !(0.0..=most + 1e-9).contains(*knot)) {
+            return refuse(format!("at {knot} degrees"), &format!("0 to {most}"));
+        }
+        if let Some([first, second]) = knots.array_windows().find(|[first, second]| second <= first) {
+            return refuse(format!("at {first} and then {second} degrees"), "strictly ascending knots");
+        }
+    }
+    Ok(())
 }
 
 /// Light that stays on its side, or passes through.

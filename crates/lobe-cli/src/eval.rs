@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, ValueEnum};
 use lobe::formats::Document;
 use lobe::{Data, Edges, Given, Lookup, Material, Options};
+use lobe_files::is_standard_input;
 use lobe_table::specular::coords::angles_to_directions;
 use lobe_table::specular::reference::zenith;
 use serde::Serialize;
@@ -40,7 +41,7 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wo", value_parser = parse_direction)]
     wi: Option<[f64; 3]>,
     /// The direction to the viewer.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wi", value_parser = parse_direction)]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "wi", conflicts_with_all = ["angles", "pairs"], value_parser = parse_direction)]
     wo: Option<[f64; 3]>,
     /// Specular coordinates in degrees instead of two directions.
     #[arg(long, value_name = "SIGMA,PSI,THETA,PHI", allow_hyphen_values = true, value_parser = parse_specular)]
@@ -128,6 +129,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let options =
         Options { edges: args.edge.map(EdgeRule::edges).unwrap_or_default(), lookup, indexed_by, ..Options::default() };
+    if is_standard_input(&args.file) && args.pairs.as_deref().is_some_and(is_standard_input) {
+        let message = "-: found the standard input for both the material and --pairs; expected a file for one of them";
+        return Err(Failure::Usage(message.into()));
+    }
     let (_, document) = args.reading.open(&args.file)?;
     args.check_options(&document)?;
     warn_of_guesses(&args.file, &document);

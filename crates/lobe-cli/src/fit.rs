@@ -65,7 +65,7 @@ pub struct Args {
     /// Fit linear sRGB instead of the channels of the file. OpenPBR and glTF are always fitted in it.
     #[arg(long, conflicts_with = "channel")]
     rgb: bool,
-    /// The wavelength of channels that have none, which k-correlation needs.
+    /// The wavelength of channels that have none, which k-correlation needs, and tables of abg and harvey-shack state.
     #[arg(long, value_name = "NM")]
     wavelength: Option<f64>,
     /// Reflection or transmission, if the file has both.
@@ -145,6 +145,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     angle("--up-to", args.up_to, 89.0)?;
     angle("--wavelength", args.wavelength.unwrap_or(1.0), 1e9)?;
+    if let Some(limit) = args.limit.filter(|limit| !(limit.is_finite() && *limit >= 0.0)) {
+        return Err(Failure::Usage(format!("found --limit {limit}; expected a number of at least 0")));
+    }
+    let uses_wavelength = matches!(args.model, Model::Abg | Model::HarveyShack | Model::KCorrelation);
+    if args.wavelength.is_some() && !uses_wavelength {
+        return Err(Failure::Usage(format!(
+            "found --wavelength with {}; expected abg, harvey-shack or k-correlation, which need one or write it",
+            args.model.name()
+        )));
+    }
     let subject = args.reading.subject(&args.file, &Options { lookup: Lookup::Linear, ..Options::default() })?;
     let aspect = aspect(args, &subject)?;
     let limit = args.up_to.to_radians();
@@ -152,6 +162,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     fits(&args.file, &[CHECKED.max(args.pairs as usize)], 4 * channels + 40)?;
     let measured = |count| chosen(args, Measurement::of_subject(&subject, aspect, limit, count));
     let measurement = measured(args.pairs as usize)?;
+    if args.wavelength.is_some() && matches!(measurement.channels(), Channels::Spectral(_)) {
+        let message =
+            "found --wavelength, but the channels have wavelengths; expected only options that have an effect";
+        return Err(Failure::Usage(format!("{}: {message}", args.file.display())));
+    }
     let usual = Request::new(args.model);
     let request = Request {
         weights: args.weights.map_or(usual.weights, weights),
@@ -188,7 +203,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     let error = error(&fit, &residuals);
     match args.limit {
-        Some(limit) if error > limit || limit.is_nan() || error.is_nan() => {
+        Some(limit) if error > limit || error.is_nan() => {
             Err(Failure::Check(format!("{}: the relative error is {error:.4}, more than {limit}", args.model.name())))
         }
         _ => Ok(()),

@@ -61,6 +61,7 @@ pub fn generate(args: &Args) -> Result<(), Failure> {
     }
     lobe_files::check_output::<&std::path::Path>(&output.out, &[])?;
     output.refuse_others(&[Purpose::Knots])?;
+    output.check_knots()?;
     let alpha = match args.alpha[..] {
         [both] => [both; 2],
         [x, y] => [x, y],

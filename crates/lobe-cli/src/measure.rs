@@ -154,6 +154,7 @@ fn nodes(target: Target, output: &Output, isotropic: bool) -> Result<(Nodes, &'s
     let refuse = |found: &str, expected: &str| {
         Err(Failure::Usage(format!("{out}: found {found}; expected {expected} in {format}")))
     };
+    output.check_knots()?;
     let kind = match target.writer.resampled_as {
         Ok(kind) => kind,
         Err(expected) => {

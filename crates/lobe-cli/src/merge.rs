@@ -7,7 +7,7 @@ use lobe_render::picture::{ToneMap, inspect, write_exr_in, write_png_in};
 use lobe_render::{Bands, Rgb, Stokes16, StokesRgb, Transport, merge_in};
 
 use crate::failure::Failure;
-use crate::picture::Kind;
+use crate::picture::{Kind, parse_exposure};
 use crate::render::Show;
 
 /// Add the parts of a picture written by `lobe render --tile` and `--samples-range`. The result has the same bits as
@@ -27,7 +27,7 @@ pub struct Args {
     #[arg(long)]
     allow_gaps: bool,
     /// For PNG: multiply radiance by two to this power; by default the exposure of the scene.
-    #[arg(long, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<f32>,
     /// The quantity that a PNG shows.
     #[arg(long, value_enum, default_value = "colour")]

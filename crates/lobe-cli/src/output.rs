@@ -11,6 +11,7 @@ use lobe_ops::remeasure::{Nodes, knots, spherical_knots};
 use lobe_table::window::klems::AngleBasis;
 use lobe_table::window::tensor_tree::Rank;
 
+use crate::angles::check_knots;
 use crate::failure::Failure;
 use crate::target::{Target, parser, target};
 
@@ -160,6 +161,11 @@ impl Output {
             )));
         }
         target(&self.out, self.to)
+    }
+
+    /// Refuses knots that no table has.
+    pub fn check_knots(&self) -> Result<(), Failure> {
+        check_knots(&self.out, [&self.sigma, &self.psi, &self.theta, &self.phi])
     }
 
     /// The knots of a specular table in radians: the requested ones, or else defaults that suit most materials.

@@ -50,6 +50,12 @@ impl Kind {
     }
 }
 
+/// Parses an exposure in stops.
+pub fn parse_exposure(text: &str) -> Result<f32, String> {
+    let stops: Option<f32> = text.trim().parse().ok();
+    stops.filter(|stops| stops.abs() <= 60.0).ok_or_else(|| format!("found `{text}`; expected stops from -60 to 60"))
+}
+
 /// The file that a picture is written to.
 pub struct Output<'a> {
     path: &'a Path,

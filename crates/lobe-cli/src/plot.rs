@@ -23,6 +23,7 @@ use crate::guesses::warn_of_guesses;
 use crate::info::picture::is_picture;
 use crate::measure::integrates;
 use crate::message;
+use crate::picture::parse_exposure;
 use crate::reading::Reading;
 
 /// Draw materials: curves in the plane of incidence, channels, spectra, slices of the hemisphere, lit spheres,
@@ -84,7 +85,7 @@ pub struct Args {
     #[arg(long, value_name = "X,Y", value_parser = picture::parse_point)]
     at: Vec<picture::Point>,
     /// The exposure of a picture in stops; by default it is fitted to the picture.
-    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = picture::parse_exposure)]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<f32>,
     /// The width of a figure in pixels. Below 560, it is laid out for a narrow column.
     #[arg(long, default_value_t = 960, value_parser = clap::value_parser!(u32).range(100..=8000))]
@@ -138,7 +139,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.files.iter().any(|file| is_picture(file)) {
         return picture::run(args, target);
     }
-    refuse_idle(args)?;
+    refuse_idle(args, target)?;
     let mut subjects = Vec::new();
     let mut tables = Vec::new();
     for file in &args.files {
@@ -301,21 +302,24 @@ fn target(out: &Path, kind: Option<Kind>) -> Result<Target, Failure> {
 
 /// Refuses options that have no effect: those of pictures, and those of lights and scales on spheres, which have their
 /// own.
-fn refuse_idle(args: &Args) -> Result<(), Failure> {
+fn refuse_idle(args: &Args, target: Target) -> Result<(), Failure> {
+    let refuse = |file: &Path, name: &str, purpose: &str, expected: &str| {
+        let file = file.display();
+        Err(Failure::Usage(format!("{file}: found {name}, which is for {purpose}; expected {expected}")))
+    };
+    // Spectra are drawn by themselves or on a page.
+    let has_spectra = matches!((args.kind, target), (Some(Kind::Page | Kind::Spectra), _) | (None, Target::Page));
     let of_pictures = [("--at", !args.at.is_empty()), ("--exposure", args.exposure.is_some())];
-    if let Some((name, _)) = of_pictures.into_iter().find(|(_, is_given)| *is_given) {
-        return Err(Failure::Usage(format!(
-            "{}: found {name}, which is for pictures; expected an OpenEXR picture",
-            args.files[0].display()
-        )));
+    let of_figures = [("--log", args.log), ("--linear", args.linear), ("--sigma", !args.sigma.is_empty())];
+    let found = |given: &[(&'static str, bool)]| given.iter().find(|(_, is_given)| *is_given).map(|(name, _)| *name);
+    if let Some(name) = found(&of_pictures) {
+        return refuse(&args.files[0], name, "pictures", "an OpenEXR picture");
     }
-    let given = [("--log", args.log), ("--linear", args.linear), ("--sigma", !args.sigma.is_empty())];
-    let found = given.into_iter().find(|(_, is_given)| *is_given && args.kind == Some(Kind::Sphere));
-    match found {
-        Some((name, _)) => Err(Failure::Usage(format!(
-            "{}: found {name}, which is for curves, lobes and slices; expected no option that has no effect on spheres",
-            args.out.display()
-        ))),
+    if !args.theta.is_empty() && !has_spectra {
+        return refuse(&args.out, "--theta", "spectra", "--kind spectra, or a page");
+    }
+    match found(&of_figures).filter(|_| args.kind == Some(Kind::Sphere)) {
+        Some(name) => refuse(&args.out, name, "curves, lobes and slices", "no option that has no effect on spheres"),
         None => Ok(()),
     }
 }

@@ -18,7 +18,7 @@ use crate::angles::progress;
 use crate::draft::Draft;
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
-use crate::picture::{FILM, Kind};
+use crate::picture::{FILM, Kind, parse_exposure};
 use crate::render::Machine;
 use crate::{interrupt, message};
 
@@ -48,7 +48,7 @@ pub struct Args {
     #[arg(long, value_name = "TIME", default_value = "20s", value_parser = humantime::parse_duration)]
     time: Duration,
     /// For PNG: multiply radiance by two to this power [default: 0].
-    #[arg(long, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = parse_exposure)]
     exposure: Option<f32>,
     #[command(flatten)]
     machine: Machine,

@@ -16,7 +16,9 @@ use lobe_ops::resample::{Bound, Knots, PROBES, Resampling, candidates, choose, e
 use lobe_ops::{Aspect, Subject, energy, symmetrise};
 use serde::Serialize;
 
-use crate::angles::{Angles, ScatterRule, SideRule, choose_aspects, parse_angles, progress, show_direction};
+use crate::angles::{
+    Angles, ScatterRule, SideRule, check_knots, choose_aspects, parse_angles, progress, show_direction,
+};
 use crate::failure::Failure;
 use crate::guesses::warn_of_guesses;
 use crate::measure::fits;
@@ -203,6 +205,8 @@ fn table(args: &Args, subject: &Subject, aspect: Aspect) -> Result<(specular::Da
     if bound.error.is_nan() || bound.error <= 0.0 {
         return Err(Failure::Usage(format!("found an error of {}; expected one above 0", bound.error)));
     }
+    let degrees = given.map(|axis| axis.as_ref().map_or_else(Vec::new, Angles::degrees));
+    check_knots(&args.output, degrees.each_ref().map(Vec::as_slice))?;
     let candidates = own.map_or_else(|| candidates(subject.is_isotropic()), |samples| samples.knots().clone());
     let mut axes = candidates.map(Knots::Choose);
     for (axis, Angles(knots)) in axes.iter_mut().zip(given).filter_map(|(axis, list)| Some((axis, list.as_ref()?))) {

@@ -23,12 +23,6 @@ pub fn parse_point(text: &str) -> Result<Point, String> {
     Ok(Point([whole(x)?, whole(y)?]))
 }
 
-/// Parses an exposure.
-pub fn parse_exposure(text: &str) -> Result<f32, String> {
-    let stops: Option<f32> = text.trim().parse().ok();
-    stops.filter(|stops| stops.abs() <= 60.0).ok_or_else(|| format!("found `{text}`; expected stops from -60 to 60"))
-}
-
 /// Draws a picture.
 pub fn run(args: &Args, target: Target) -> Result<(), Failure> {
     let file = refuse_idle(args)?;

@@ -20,6 +20,7 @@ mod matrices;
 mod memory;
 mod pictures;
 mod plot;
+mod refused;
 mod render;
 mod resample;
 #[cfg(unix)]
