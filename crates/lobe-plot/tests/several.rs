@@ -183,6 +183,18 @@ fn narrow_figures_are_legible() {
 }
 
 #[test]
+fn long_numbers_leave_room_for_the_name_of_the_axis() {
+    let subject = flat("dark.ddr", Channels::Mono, &[2e-5]);
+    let svg = one(&subject, &View { width: 400, ..View::new(&subject) }, Figure::Curves);
+    let numbers: Vec<&str> = svg.lines().filter(|line| line.contains("\u{b7}10<tspan")).collect();
+    assert!(!numbers.is_empty(), "{svg}");
+    for number in numbers {
+        // The name is 26 wide with its margin, the number about 46; it ends here.
+        assert!(attribute(number, "x") > 26.0 + 46.0, "{number}");
+    }
+}
+
+#[test]
 fn spectra_of_dark_directions_are_visible() {
     // Ten times as bright for light at 57 degrees; beyond two degrees from the mirror direction, a share of it.
     let drawn = |share: f32, scaling| {

@@ -102,7 +102,8 @@ impl Chart<'_> {
         let layout = paper.layout;
         let (legend, entries) = &self.legend;
         let is_below = layout.is_narrow || entries.iter().any(|entry| entry.label.chars().count() > SHORT);
-        let left = if layout.is_narrow { 66.0 } else { 92.0 };
+        // The axis has its name to the left of the longest number.
+        let left = if layout.is_narrow { 30.0 + 9.0 * self.longest_number().max(4) as f64 } else { 92.0 };
         let right = if is_below { MARGIN } else { 156.0 };
         let height = match (self.panels.len(), layout.is_narrow) {
             (..=1, false) => 380.0,
@@ -144,9 +145,23 @@ impl Chart<'_> {
         self.panels.iter().flat_map(|panel| &panel.lines)
     }
 
-    fn panel(&self, svg: &mut Svg<'_>, area: Area, panel: &Panel, is_last: bool) {
+    /// The lines that share the axis of values of a panel.
+    fn of_group(&self, panel: &Panel) -> Vec<&Line> {
         let of_group = self.panels.iter().filter(|other| other.group == panel.group);
-        let lines: Vec<&Line> = of_group.flat_map(|panel| &panel.lines).collect();
+        of_group.flat_map(|panel| &panel.lines).collect()
+    }
+
+    /// The characters of the longest number at an axis of values.
+    fn longest_number(&self) -> usize {
+        let scales = self.panels.iter().map(|panel| Scale::around(self.counted(&self.of_group(panel)), self.scaling));
+        let labels = scales.flat_map(|scale| scale.ticks()).filter_map(|tick| tick.label);
+        // Without the signs of an exponent, which are not drawn.
+        let characters = |label: String| label.chars().filter(|c| !matches!(c, '^' | '{' | '}')).count();
+        labels.map(characters).max().unwrap_or(0)
+    }
+
+    fn panel(&self, svg: &mut Svg<'_>, area: Area, panel: &Panel, is_last: bool) {
+        let lines = self.of_group(panel);
         let scale = Scale::around(self.counted(&lines), self.scaling);
         self.angles_or_wavelengths(svg, area, is_last);
         values(svg, area, &scale);
