@@ -86,7 +86,7 @@ fn is_sidecar(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().to_ascii_lowercase().ends_with(SIDECAR))
 }
 
-/// The place of a file that may not exist yet: another output of the same program is none.
+/// The absolute path of a file, which may not exist yet.
 fn located(path: &Path) -> Option<PathBuf> {
     path.canonicalize().ok().or_else(|| Some(folder(path).canonicalize().ok()?.join(path.file_name()?)))
 }
