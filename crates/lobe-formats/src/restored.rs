@@ -64,7 +64,7 @@ fn neighbours(x: f64) -> impl Iterator<Item = f64> {
     up.chain(down)
 }
 
-/// Azimuths that may have been the outgoing one of a file, before it became a difference.
+/// The outgoing azimuths from which a reader may have computed this difference to the incident one.
 fn outgoing(phi_i: f64, relative: f64) -> impl Iterator<Item = f64> {
     let phi_o = phi_i + relative;
     // Subtracting a turn left the rounding of a larger number.
